@@ -1,0 +1,1 @@
+"""Integrators scored against the proven reference."""

@@ -1,0 +1,120 @@
+"""The arithmetics that read an equation: one small namespace each.
+
+An equation takes an arithmetic as its first argument and calls ``m.sin``, ``m.sqrt``, ... on whatever numbers that
+arithmetic has.  ``m.number(q)`` turns an exact rational into one of them, rounded at most once.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Protocol
+
+import numpy as np
+from flint import arb, fmpq
+from mpmath import mp
+
+from reference.elliptic import BallElliptic, MpmathElliptic
+
+if TYPE_CHECKING:
+    from fractions import Fraction
+    from types import ModuleType
+
+__all__ = ["BALL", "MPMATH", "NUMPY", "Arithmetic", "Ball", "EllipticArithmetic", "Heyoka", "Mpmath", "Numpy"]
+
+
+class Arithmetic(Protocol):
+    """What an equation of motion may ask for."""
+
+    def number(self, value: Fraction) -> Any: ...
+    def sin(self, x: Any) -> Any: ...
+    def cos(self, x: Any) -> Any: ...
+    def sqrt(self, x: Any) -> Any: ...
+
+
+class EllipticArithmetic(Arithmetic, Protocol):
+    """What a closed form may ask for besides."""
+
+    def tan(self, x: Any) -> Any: ...
+    def atan(self, x: Any) -> Any: ...
+    def elliptic(self, k: Any, kc: Any) -> Any: ...
+
+
+class Ball:
+    """Arb's real balls at the precision of ``flint.ctx``."""
+
+    elliptic = staticmethod(BallElliptic)
+
+    @staticmethod
+    def number(value: Fraction) -> arb:
+        return arb(fmpq(value.numerator, value.denominator))
+
+    @staticmethod
+    def sin(x: arb) -> arb:
+        return x.sin()
+
+    @staticmethod
+    def cos(x: arb) -> arb:
+        return x.cos()
+
+    @staticmethod
+    def tan(x: arb) -> arb:
+        return x.tan()
+
+    @staticmethod
+    def atan(x: arb) -> arb:
+        return x.atan()
+
+    @staticmethod
+    def sqrt(x: arb) -> arb:
+        return x.sqrt()
+
+
+class Mpmath:
+    """mpmath's numbers at its working precision."""
+
+    elliptic = staticmethod(MpmathElliptic)
+    sin = staticmethod(mp.sin)
+    cos = staticmethod(mp.cos)
+    tan = staticmethod(mp.tan)
+    atan = staticmethod(mp.atan)
+    sqrt = staticmethod(mp.sqrt)
+
+    @staticmethod
+    def number(value: Fraction) -> Any:
+        return mp.mpf(value.numerator) / value.denominator
+
+
+class Numpy:
+    """NumPy arrays and scalars."""
+
+    sin = staticmethod(np.sin)
+    cos = staticmethod(np.cos)
+    sqrt = staticmethod(np.sqrt)
+
+    @staticmethod
+    def number(value: Fraction) -> float:
+        return float(value)
+
+
+class Heyoka:
+    """heyoka's symbolic expressions; ``number`` gives constants of the floating-point type that will run them."""
+
+    def __init__(self, number: Any = float) -> None:
+        self._hy: ModuleType = __import__("heyoka")
+        self._number = number
+
+    def number(self, value: Fraction) -> Any:
+        return self._number(value)
+
+    def sin(self, x: Any) -> Any:
+        return self._hy.sin(x)
+
+    def cos(self, x: Any) -> Any:
+        return self._hy.cos(x)
+
+    def sqrt(self, x: Any) -> Any:
+        return self._hy.sqrt(x)
+
+
+BALL = Ball()
+MPMATH = Mpmath()
+NUMPY = Numpy()

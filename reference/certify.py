@@ -1,0 +1,157 @@
+"""The routes against each other, and the certified number that comes of it.
+
+The enclosure decides every digit.  The other routes must agree with it: to REQUIRED_DIGITS digits of the size that
+the quantity has over the arguments at hand, or everything stops.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+from flint import arb, ctx
+
+from reference.arithmetic import BALL
+from reference.exact import spelled
+from reference.limbs import decimal, exact_decimal, exact_limbs, interval, limbs
+from reference.routes import enclosure
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from reference.problem import Problem, Quantity
+
+__all__ = ["REQUIRED_DIGITS", "ROUTES", "Agreement", "Certified", "DisagreementError", "agreement"]
+
+REQUIRED_DIGITS = 45
+ROUTE_DIGITS = 60
+ROUTES = ("taylor", "quadrature")
+"""The routes that are held against the enclosure."""
+
+
+class DisagreementError(ArithmeticError):
+    """Two routes to one number differ: one of them is wrong."""
+
+
+@dataclass(frozen=True)
+class Agreement:
+    """How far one route agrees with the enclosure on one quantity: the least digits over ``checked`` elements."""
+
+    digits: float
+    checked: int
+
+
+def agreement(problem: Problem, row: str, arguments: Sequence[Any], route: str) -> tuple[Agreement, ...] | None:
+    """Compare a route with the enclosure on every argument: one Agreement a quantity, None if it has no such row.
+
+    Digits are -log10(|difference| / scale), with the scale the largest absolute value of the quantity over the
+    arguments: near its zeros a relative error would say nothing about the route.
+
+    Raises:
+        DisagreementError: fewer than REQUIRED_DIGITS digits agree somewhere.
+    """
+    found = problem.by_route(route, row, arguments, ROUTE_DIGITS)
+    if found is None:
+        return None
+    proven = enclosure.balls(problem, row, arguments, int(ROUTE_DIGITS * 3.33) + 20)
+    results = []
+    for i, quantity in enumerate(problem.row(row).quantities):
+        pairs = [(truth[i], value[i]) for truth, value in zip(proven, found, strict=True)]
+        digits = _digits(pairs)
+        worst = min(range(len(pairs)), key=digits.__getitem__)
+        if digits[worst] < REQUIRED_DIGITS:
+            truth, value = pairs[worst]
+            raise DisagreementError(
+                f"{quantity.name} of {problem!r} at {_shown(arguments[worst])} is {truth.str(50, radius=False)} "
+                f"by the enclosure and {exact_decimal(value, 50)} by {route}: "
+                f"{digits[worst]:.1f} digits agree where {REQUIRED_DIGITS} must."
+            )
+        results.append(Agreement(math.floor(digits[worst] * 10) / 10, len(pairs)))
+    return tuple(results)
+
+
+def _digits(pairs: Sequence[tuple[arb, Fraction]]) -> list[float]:
+    bits = int(ROUTE_DIGITS * 3.33) + 64
+    with ctx.workprec(bits):
+        scale = max(float(truth.abs_upper()) for truth, _ in pairs) or 1.0
+        gaps = [float((abs(truth - BALL.number(value)) / scale).upper()) for truth, value in pairs]
+    return [min(float(ROUTE_DIGITS), -math.log10(gap)) if gap else float(ROUTE_DIGITS) for gap in gaps]
+
+
+def _shown(argument: Any) -> str:
+    if argument is None:
+        return "the given parameters"
+    return f"t = {spelled(argument)}" if isinstance(argument, Fraction) else f"index {argument}"
+
+
+@dataclass(frozen=True)
+class Certified:
+    """A proven real number: as a float, as limbs, and to any number of decimal digits, each correctly rounded."""
+
+    problem: Problem
+    row: str
+    argument: Any = None
+    component: int = 0
+
+    @property
+    def quantity(self) -> Quantity:
+        """Name, units and definition."""
+        return self.problem.row(self.row).quantities[self.component]
+
+    def _decide(self, of_ball: Any, of_exact: Any, bits: int) -> Any:
+        found = enclosure.decide(self.problem, self.row, [self.argument], of_ball, of_exact, bits)
+        return found[0][self.component]
+
+    def limbs(self, count: int = 3) -> tuple[float, ...]:
+        """The correctly rounded double and the ``count`` - 1 limbs of its tail."""
+        return self._decide(  # type: ignore[no-any-return]
+            lambda ball: limbs(interval(ball), count), lambda value: exact_limbs(value, count), 53 * count
+        )
+
+    @cached_property
+    def _three(self) -> tuple[float, ...]:
+        return self.limbs(3)
+
+    def __float__(self) -> float:
+        return self._three[0]
+
+    @property
+    def tail(self) -> tuple[float, float]:
+        """The two limbs after the double: value + tail[0] + tail[1] has about 48 correct digits."""
+        return self._three[1], self._three[2]
+
+    def digits(self, count: int = 50) -> str:
+        """The decimal of ``count`` significant digits, correctly rounded.
+
+        Raises:
+            ValueError: ``count`` is not a positive integer.
+            WorkBoundError: the digits could not be decided within the bound on the working precision.
+        """
+        if isinstance(count, bool) or not isinstance(count, int) or count < 1:
+            raise ValueError(f"digits is {count!r}; a positive integer is accepted.")
+        return self._decide(  # type: ignore[no-any-return]
+            lambda ball: decimal(interval(ball), count),
+            lambda value: exact_decimal(value, count),
+            math.ceil(count * math.log2(10)) + 8,
+        )
+
+    @cached_property
+    def routes(self) -> dict[str, float]:
+        """The routes to this number and the digits to which each agrees with the enclosure (at most 60 are compared).
+
+        Raises:
+            DisagreementError: a route differs within the first 45 digits.
+        """
+        agreed: dict[str, float] = {"enclosure": math.inf}
+        for route in ROUTES:
+            found = agreement(self.problem, self.row, [self.argument], route)
+            if found is not None:
+                agreed[route] = found[self.component].digits
+        return agreed
+
+    def __repr__(self) -> str:
+        units = "" if self.quantity.units == "1" else f" {self.quantity.units}"
+        return f"{self.quantity.name} = {self.digits(17)}{units}"

@@ -1,0 +1,77 @@
+"""Jacobi's elliptic functions of one modulus, in balls and in mpmath, behind one interface.
+
+``k`` is the modulus, ``kc`` the complementary modulus (k^2 + kc^2 = 1); both are given, because near k = 1 the one
+cannot be had from the other without loss.
+"""
+
+from __future__ import annotations
+
+from typing import Any, Protocol
+
+from flint import acb, arb
+from mpmath import mp
+
+__all__ = ["BallElliptic", "Elliptic", "MpmathElliptic"]
+
+
+class Elliptic(Protocol):
+    """K(k), E(k), sn, cn, dn and Jacobi's epsilon function at one fixed modulus."""
+
+    first: Any
+    """K, the complete integral of the first kind."""
+
+    def second(self) -> Any:
+        """E, the complete integral of the second kind."""
+
+    def functions(self, u: Any) -> tuple[Any, Any, Any]:
+        """(sn, cn, dn)(u)."""
+
+    def epsilon(self, u: Any) -> Any:
+        """E(am u), the incomplete integral of the second kind at the amplitude of u (DLMF 22.16.14)."""
+
+
+class BallElliptic:
+    """By theta functions of z = u/2K and tau = i K'/K (DLMF 22.2.4-9); every result encloses the exact value."""
+
+    def __init__(self, k: arb, kc: arb) -> None:
+        self.k = k
+        half_pi = arb.pi() / 2
+        self.first = half_pi / arb(1).agm(kc)
+        self._tau = acb(0, half_pi / arb(1).agm(k) / self.first)
+        _, t2, t3, t4 = (theta.real for theta in acb(0).modular_theta(self._tau))
+        self._scale = t3 / t2, t4 / t2, t4 / t3
+
+    def second(self) -> arb:
+        return acb(self.k * self.k).elliptic_e().real
+
+    def functions(self, u: arb) -> tuple[arb, arb, arb]:
+        t1, t2, t3, t4 = (theta.real for theta in acb(u / (2 * self.first)).modular_theta(self._tau))
+        sn, cn, dn = self._scale
+        return sn * t1 / t4, cn * t2 / t4, dn * t3 / t4
+
+    def epsilon(self, u: arb) -> arb:
+        period = 2 * self.first
+        z = acb(u / period)
+        t4 = z.modular_theta(self._tau)[3].real
+        slope = z.modular_theta(self._tau, 1)[3].real
+        return self.second() / self.first * u + slope / t4 / period
+
+
+class MpmathElliptic:
+    """By mpmath's nome series and Carlson forms, to the working precision in force."""
+
+    def __init__(self, k: Any, kc: Any) -> None:
+        self.m = 1 - kc * kc if kc < k else k * k
+        self.first = mp.pi / (2 * mp.agm(1, kc))
+
+    def second(self) -> Any:
+        return mp.ellipe(self.m)
+
+    def functions(self, u: Any) -> tuple[Any, Any, Any]:
+        return tuple(mp.ellipfun(name, u, m=self.m) for name in ("sn", "cn", "dn"))
+
+    def epsilon(self, u: Any) -> Any:
+        halves = mp.nint(u / (2 * self.first))
+        rest = u - 2 * halves * self.first
+        sn, cn, _ = self.functions(rest)
+        return mp.ellipe(mp.atan2(sn, cn), self.m) + 2 * halves * self.second()

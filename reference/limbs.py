@@ -1,0 +1,148 @@
+"""From a ball to the numbers that every one of its points rounds to.
+
+A value x is stored as ``limb[0] + limb[1] + limb[2] + ...``: limb[0] is x correctly rounded to binary64 (nearest, ties
+to even), limb[1] is x - limb[0] correctly rounded, and so on.  Three limbs carry about 159 bits, 48 digits.
+"""
+
+from __future__ import annotations
+
+import math
+from decimal import ROUND_HALF_EVEN, Context, Decimal
+from fractions import Fraction
+from typing import TYPE_CHECKING, TypeVar
+
+from flint import arb, ctx
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
+
+__all__ = ["MAX_BITS", "Interval", "WorkBoundError", "decimal", "interval", "limbs", "rounded", "ziv"]
+
+BINARY64_BITS = 53
+BINARY64_MIN_EXPONENT = -1074
+MAX_BITS = 1 << 17
+"""Working precision at which a proof is given up, with an error."""
+
+Interval = tuple[int, int, int]
+"""(a, b, e): the closed interval [a 2^e, b 2^e]."""
+
+Answer = TypeVar("Answer")
+
+
+class WorkBoundError(ArithmeticError):
+    """A value could not be decided within the stated bound on the working precision."""
+
+
+def interval(ball: arb) -> Interval | None:
+    """Return the exact end points of ``ball``, or None where it is not finite."""
+    if not ball.is_finite():
+        return None
+    (low, low_exponent), (high, high_exponent) = (
+        (int(man), int(exp)) for man, exp in (ball.lower().man_exp(), ball.upper().man_exp())
+    )
+    exponent = min(low_exponent, high_exponent)
+    return low << (low_exponent - exponent), high << (high_exponent - exponent), exponent
+
+
+def rounded(mantissa: int, exponent: int, bits: int, min_exponent: int | None = None) -> tuple[int, int]:
+    """Round ``mantissa * 2^exponent`` to ``bits`` bits, nearest, ties to even: the result as (mantissa, exponent).
+
+    With ``min_exponent`` no bit below 2^min_exponent is kept (gradual underflow).
+    """
+    drop = mantissa.bit_length() - bits
+    if min_exponent is not None:
+        drop = max(drop, min_exponent - exponent)
+    if drop <= 0:
+        return mantissa, exponent
+    floor, rest = mantissa >> drop, mantissa & ((1 << drop) - 1)
+    half = 1 << (drop - 1)
+    if rest > half or (rest == half and floor & 1):
+        floor += 1
+    return floor, exponent + drop
+
+
+def _binary64(mantissa: int, exponent: int) -> float:
+    return math.ldexp(*rounded(mantissa, exponent, BINARY64_BITS, BINARY64_MIN_EXPONENT))
+
+
+def limbs(bounds: Interval | None, count: int) -> tuple[float, ...] | None:
+    """Return the ``count`` binary64 limbs shared by every point of the interval, or None where they differ."""
+    if bounds is None:
+        return None
+    low, high, exponent = bounds
+    found: list[float] = []
+    for _ in range(count):
+        value = _binary64(low, exponent)
+        if value != _binary64(high, exponent):
+            return None
+        found.append(value + 0.0)
+        numerator, denominator = value.as_integer_ratio()
+        value_exponent = 1 - denominator.bit_length()
+        shift = max(0, exponent - value_exponent)
+        exponent -= shift
+        taken = numerator << (value_exponent - exponent)
+        low, high = (low << shift) - taken, (high << shift) - taken
+    return tuple(found)
+
+
+def exact_limbs(value: Fraction, count: int) -> tuple[float, ...]:
+    """Return the limbs of an exact rational."""
+    found: list[float] = []
+    for _ in range(count):
+        found.append(float(value))
+        value -= Fraction(found[-1])
+    return tuple(found)
+
+
+def decimal(bounds: Interval | None, digits: int) -> str | None:
+    """Return the decimal of ``digits`` significant digits that every point of the interval rounds to, or None."""
+    if bounds is None:
+        return None
+    low, high, exponent = bounds
+    scale = Fraction(2) ** exponent
+    text = exact_decimal(low * scale, digits)
+    return text if exact_decimal(high * scale, digits) == text else None
+
+
+def exact_decimal(value: Fraction, digits: int) -> str:
+    """Return an exact rational rounded to ``digits`` significant digits (nearest, ties to even), zeros kept."""
+    context = Context(prec=digits, rounding=ROUND_HALF_EVEN, Emin=-(10**9), Emax=10**9)
+    quotient = context.divide(Decimal(value.numerator), Decimal(value.denominator))
+    if not quotient:
+        return "0"
+    missing = digits - len(quotient.as_tuple().digits)
+    padded = quotient if missing <= 0 else quotient.quantize(quotient.scaleb(-missing), context=context)
+    return f"{padded:f}" if -7 < padded.adjusted() < digits else f"{padded:e}"
+
+
+def ziv(
+    enclose: Callable[[Sequence[int]], Sequence[Sequence[arb]]],
+    decide: Callable[[arb], Answer | None],
+    count: int,
+    bits: int,
+    what: str,
+) -> list[list[Answer]]:
+    """Ziv's loop over ``count`` rows of balls: double the precision until every ball of every row is decided.
+
+    ``enclose(rows)`` returns the balls of the given rows at the working precision in force; ``decide(ball)`` the one
+    answer of all its points, or None.
+
+    Raises:
+        WorkBoundError: a row is undecided at MAX_BITS bits.
+    """
+    answers: dict[int, list[Answer]] = {}
+    pending = list(range(count))
+    while pending:
+        if bits > MAX_BITS:
+            raise WorkBoundError(
+                f"{what} could not be decided with {MAX_BITS} bits of working precision, the limit; "
+                "a value this close to a rounding boundary, or a time this long, is not served."
+            )
+        with ctx.workprec(bits):
+            for row, balls in zip(pending, enclose(pending), strict=True):
+                decided = [answer for ball in balls if (answer := decide(ball)) is not None]
+                if len(decided) == len(balls):
+                    answers[row] = decided
+        pending = [row for row in pending if row not in answers]
+        bits *= 2
+    return [answers[row] for row in range(count)]

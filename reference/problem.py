@@ -1,0 +1,151 @@
+"""What a problem is: frozen data, its equations, and the names of what can be asked of it.
+
+A problem's *rows* are the things that are computed together: one number for the whole motion (a period), one per
+index (the zero crossings) or a tuple per time (the state).  Each route is a *solution*, an object that answers every
+row it serves; the closed form in balls, in mpmath, and heyoka's Taylor method differ in nothing else.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import TYPE_CHECKING, Any, ClassVar, Literal, Protocol
+
+import numpy as np
+
+from reference.certify import Certified
+from reference.exact import exact_array
+from reference.limbs import exact_limbs, interval, limbs
+from reference.routes import enclosure
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from reference.arithmetic import Arithmetic
+
+__all__ = ["ClosedForm", "Problem", "Quantity", "Row", "Solution"]
+
+
+@dataclass(frozen=True)
+class Quantity:
+    """A named number with its units and its defining equation in one line."""
+
+    name: str
+    units: str
+    long_name: str
+    definition: str
+
+
+@dataclass(frozen=True)
+class Row:
+    """Quantities that are computed together, and what they are a function of."""
+
+    name: str
+    quantities: tuple[Quantity, ...]
+    over: Literal["once", "index", "time"]
+
+
+class Solution(Protocol):
+    """One route to the truth about one problem."""
+
+    def rows(self, row: str, arguments: Sequence[Any]) -> list[tuple[Any, ...]]:
+        """The values of a row at each of its arguments: exact times, indices, or one None."""
+
+
+class ClosedForm:
+    """A solution that writes each row as an attribute or method of its name, in the arithmetic ``m``."""
+
+    m: Any
+
+    def rows(self, row: str, arguments: Sequence[Any]) -> list[tuple[Any, ...]]:
+        if list(arguments) == [None]:
+            return [(getattr(self, row),)]
+        values = (getattr(self, row)(self.m.number(a) if isinstance(a, Fraction) else a) for a in arguments)
+        return [value if isinstance(value, tuple) else (value,) for value in values]
+
+
+@dataclass(frozen=True)
+class Problem:
+    """A system of ordinary differential equations with exact parameters and a proven solution."""
+
+    name: ClassVar[str]
+    rows: ClassVar[tuple[Row, ...]]
+    state_names: ClassVar[tuple[str, ...]]
+
+    @property
+    def parameters(self) -> dict[str, Fraction]:
+        """The exact parameters by name."""
+        raise NotImplementedError
+
+    @property
+    def start(self) -> tuple[Fraction, ...]:
+        """The exact initial state."""
+        raise NotImplementedError
+
+    @staticmethod
+    def derivative(m: Arithmetic, y: Sequence[Any], p: dict[str, Any]) -> tuple[Any, ...]:
+        """dy/dt as a function of the state and the parameters, in any arithmetic."""
+        raise NotImplementedError
+
+    def closed_form(self, m: Any) -> ClosedForm:
+        """The solution in one arithmetic with elliptic functions."""
+        raise NotImplementedError
+
+    def exact_row(self, row: str, argument: Any) -> tuple[Fraction, ...] | None:
+        """The values of a row where they are exactly rational, which no ball could decide; None elsewhere."""
+        raise NotImplementedError
+
+    def working_bits(self, arguments: Sequence[Any]) -> int:
+        """Bits that the closed form is expected to lose at these arguments; only speed depends on it."""
+        raise NotImplementedError
+
+    def by_route(
+        self, route: str, row: str, arguments: Sequence[Any], digits: int
+    ) -> list[tuple[Fraction, ...]] | None:
+        """The values of a row by "taylor" or "quadrature", good to ``digits`` digits; None if the route has no such row."""
+        raise NotImplementedError
+
+    def row(self, name: str) -> Row:
+        """The row of this name.
+
+        Raises:
+            KeyError: there is none.
+        """
+        return next(row for row in self.rows if row.name == name)
+
+    def certified(self, row: str, argument: Any = None, component: int = 0) -> Certified:
+        """One number of a row as a proven scalar."""
+        return Certified(self, row, argument, component)
+
+    def values(self, row: str, arguments: Sequence[Any], count: int) -> np.ndarray:
+        """The correctly rounded limbs of a row: float64 of shape (arguments, quantities, count)."""
+        found = enclosure.decide(
+            self,
+            row,
+            arguments,
+            lambda ball: limbs(interval(ball), count),
+            lambda value: exact_limbs(value, count),
+            53 * count,
+        )
+        return np.array(found, dtype=np.float64).reshape(len(arguments), -1, count)
+
+    def state(self, t: Any, limbs: int = 1) -> np.ndarray:
+        """The state at the exact times ``t``, every limb proven correctly rounded.
+
+        Args:
+            t: one time or an array of any shape: float64 at its exact value, Fractions, or decimal strings; s.
+            limbs: 1 for the correctly rounded double; 2, 3, ... append its tail.
+
+        Returns:
+            float64 of shape ``t.shape + (state,)``, with a last axis of length ``limbs`` where that is above 1.
+
+        Raises:
+            ValueError: ``t`` is empty or not finite, or ``limbs`` is not a positive integer.
+            WorkBoundError: a value could not be decided within the bound on the working precision.
+        """
+        if isinstance(limbs, bool) or not isinstance(limbs, int) or limbs < 1:
+            raise ValueError(f"limbs is {limbs!r}; a positive integer is accepted.")
+        times, shape = exact_array(t, "t")
+        found = self.values("state", times, limbs)
+        found = found.reshape(*shape, len(self.state_names), limbs)
+        return found[..., 0] if limbs == 1 else found

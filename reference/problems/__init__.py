@@ -1,0 +1,1 @@
+"""The families: each module holds its equations, its closed form and its routes."""
