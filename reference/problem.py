@@ -102,7 +102,7 @@ class Problem:
     def by_route(
         self, route: str, row: str, arguments: Sequence[Any], digits: int
     ) -> list[tuple[Fraction, ...]] | None:
-        """The values of a row by "taylor" or "quadrature", good to ``digits`` digits; None if the route has no such row."""
+        """The values of a row by "taylor" or "quadrature", good to ``digits`` digits; None if it has no such row."""
         raise NotImplementedError
 
     def row(self, name: str) -> Row:

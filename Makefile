@@ -1,0 +1,53 @@
+# make run and make test do everything from a fresh checkout; what is already done is not done again.
+
+PYTHON ?= $(shell for p in python3 python3.14 python3.13 python3.12 python3.11 python; do \
+	$$p -c 'import sys; sys.exit(sys.version_info < (3, 11))' 2>/dev/null && echo $$p && break; done)
+VENV ?= .venv
+DATASET := data/horologium-core.h5
+STAMP := $(VENV)/.installed
+BIN := $(VENV)/$(if $(filter Windows_NT,$(OS)),Scripts,bin)
+RUN := $(BIN)/python
+
+.PHONY: help setup run data test bench clean
+
+help:
+	@echo "make run    print the pendulum's tables (sets everything up first)"
+	@echo "make test   lint, type-check and run all tests (sets everything up first)"
+	@echo "make setup  create $(VENV) with the pinned dependencies"
+	@echo "make data   build the core dataset, if it is not there"
+	@echo "make bench  run the benchmarks"
+	@echo "make clean  remove $(VENV), caches and builds; the dataset stays"
+	@echo "PYTHON=... chooses the interpreter (3.11 or newer), VENV=... the environment's folder."
+
+setup: $(STAMP)
+
+$(STAMP): pyproject.toml constraints.txt
+	@test -n "$(PYTHON)" || { echo "No Python 3.11 or newer was found; make PYTHON=/path/to/python names one." >&2; exit 2; }
+	@command -v "$(PYTHON)" >/dev/null || { echo "PYTHON is $(PYTHON), which is no program; Python 3.11 or newer is needed." >&2; exit 2; }
+	@"$(PYTHON)" -c 'import sys; sys.exit(sys.version_info < (3, 11))' || \
+		{ echo "PYTHON is $(PYTHON), which is $$("$(PYTHON)" --version 2>&1); Python 3.11 or newer is needed." >&2; exit 2; }
+	"$(PYTHON)" -m venv $(VENV)
+	$(RUN) -m pip install --quiet --constraint constraints.txt hatchling
+	$(RUN) -m pip install --quiet --constraint constraints.txt --no-build-isolation --editable '.[test]'
+	@touch $@
+
+data: $(DATASET)
+
+$(DATASET): | $(STAMP)
+	$(RUN) -m reference build --profile core --out $@
+
+run: $(STAMP) $(DATASET)
+	@$(RUN) -m compare pendulum
+
+test: $(STAMP) $(DATASET)
+	$(RUN) -m ruff check .
+	$(RUN) -m ruff format --check .
+	$(RUN) -m mypy
+	$(RUN) -m pytest
+
+bench: $(STAMP) $(DATASET)
+	@for script in tests/benchmarks/*.py; do echo "== $$script"; $(RUN) $$script || exit 1; done
+
+clean:
+	rm -rf $(VENV) build dist .pytest_cache .ruff_cache .mypy_cache .hypothesis
+	find reference compare tests -name __pycache__ -type d -prune -exec rm -rf {} +
