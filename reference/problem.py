@@ -19,11 +19,11 @@ from reference.limbs import exact_limbs, interval, limbs
 from reference.routes import enclosure
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Callable, Sequence
 
     from reference.arithmetic import Arithmetic
 
-__all__ = ["ClosedForm", "Problem", "Quantity", "Row", "Solution"]
+__all__ = ["ClosedForm", "Problem", "Quantity", "Row", "SeparableProblem", "Solution"]
 
 
 @dataclass(frozen=True)
@@ -82,9 +82,22 @@ class Problem:
         """The exact initial state."""
         raise NotImplementedError
 
-    @staticmethod
-    def derivative(m: Arithmetic, y: Sequence[Any], p: dict[str, Any]) -> tuple[Any, ...]:
+    @classmethod
+    def derivative(cls, m: Arithmetic, y: Sequence[Any], p: dict[str, Any]) -> tuple[Any, ...]:
         """dy/dt as a function of the state and the parameters, in any arithmetic."""
+        raise NotImplementedError
+
+    @staticmethod
+    def invariant(m: Arithmetic, y: Sequence[Any], p: dict[str, Any]) -> Any:
+        """A conserved quantity that is zero at rest and positive elsewhere, free of cancellation."""
+        raise NotImplementedError
+
+    def rate(self) -> float:
+        """A bound in 1/s on how fast neighbouring solutions turn or part, to choose the work of implicit methods."""
+        raise NotImplementedError
+
+    def neighbour(self, rounding: Callable[[Fraction], Fraction]) -> Problem:
+        """The same problem from a start close by, its values given by ``rounding`` to a number format."""
         raise NotImplementedError
 
     def closed_form(self, m: Any) -> ClosedForm:
@@ -149,3 +162,25 @@ class Problem:
         found = self.values("state", times, limbs)
         found = found.reshape(*shape, len(self.state_names), limbs)
         return found[..., 0] if limbs == 1 else found
+
+
+@dataclass(frozen=True)
+class SeparableProblem(Problem):
+    """A problem with q' = v(p) and p' = F(q), positions q first in the state."""
+
+    positions: ClassVar[int]
+
+    @staticmethod
+    def velocity(m: Arithmetic, momenta: Sequence[Any], p: dict[str, Any]) -> tuple[Any, ...]:
+        """q' as a function of the momenta and the parameters."""
+        raise NotImplementedError
+
+    @staticmethod
+    def force(m: Arithmetic, positions: Sequence[Any], p: dict[str, Any]) -> tuple[Any, ...]:
+        """p' as a function of the positions and the parameters."""
+        raise NotImplementedError
+
+    @classmethod
+    def derivative(cls, m: Arithmetic, y: Sequence[Any], p: dict[str, Any]) -> tuple[Any, ...]:
+        """(q, p)' = (v(p), F(q))."""
+        return *cls.velocity(m, y[cls.positions :], p), *cls.force(m, y[: cls.positions], p)

@@ -9,6 +9,7 @@ omega0 = sqrt(g/l); see P. F. Byrd and M. D. Friedman, Handbook of Elliptic Inte
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any, ClassVar
@@ -19,12 +20,12 @@ from mpmath import mp
 from reference.arithmetic import BALL, MPMATH, Arithmetic, EllipticArithmetic
 from reference.exact import as_number, exact
 from reference.limbs import ziv
-from reference.problem import ClosedForm, Problem, Quantity, Row
+from reference.problem import ClosedForm, Quantity, Row, SeparableProblem
 from reference.routes import quadrature
 from reference.routes.taylor import Flow
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Callable, Sequence
 
     from reference.certify import Certified
 
@@ -217,7 +218,7 @@ class Events:
 
 
 @dataclass(frozen=True, repr=False)
-class Pendulum(Problem):
+class Pendulum(SeparableProblem):
     """The pendulum released from rest at ``theta0``: theta'' = -(g/length) sin theta.
 
     Args:
@@ -239,6 +240,7 @@ class Pendulum(Problem):
     name: ClassVar[str] = "pendulum"
     rows: ClassVar[tuple[Row, ...]] = ROWS
     state_names: ClassVar[tuple[str, ...]] = ("theta", "omega")
+    positions: ClassVar[int] = 1
 
     def __init__(self, theta0: Any, g: Any = 9.81, length: Any = 1.0) -> None:
         for name, value in (("theta0", theta0), ("g", g), ("length", length)):
@@ -263,10 +265,28 @@ class Pendulum(Problem):
         return self.theta0, Fraction(0)
 
     @staticmethod
-    def derivative(m: Arithmetic, y: Sequence[Any], p: dict[str, Any]) -> tuple[Any, ...]:
-        """(theta, omega)' = (omega, -(g/l) sin theta)."""
-        theta, omega = y
-        return omega, angular_acceleration(m, theta, p["g"], p["length"])
+    def velocity(m: Arithmetic, momenta: Sequence[Any], p: dict[str, Any]) -> tuple[Any, ...]:  # noqa: ARG004
+        """theta' = omega."""
+        return (momenta[0],)
+
+    @staticmethod
+    def force(m: Arithmetic, positions: Sequence[Any], p: dict[str, Any]) -> tuple[Any, ...]:
+        """omega' = -(g/l) sin theta."""
+        return (angular_acceleration(m, positions[0], p["g"], p["length"]),)
+
+    @staticmethod
+    def invariant(m: Arithmetic, y: Sequence[Any], p: dict[str, Any]) -> Any:
+        """The energy above rest, per m l^2, in 1/s^2."""
+        return energy_above_rest(m, y[0], y[1], p["g"], p["length"])
+
+    def rate(self) -> float:
+        """omega0: |d(omega')/d(theta)| <= omega0^2."""
+        return math.sqrt(self.g / self.length)
+
+    def neighbour(self, rounding: Callable[[Fraction], Fraction]) -> Pendulum:
+        """The pendulum from theta0 less 2^-20 of its distance to the nearer of 0 and pi."""
+        edge = min(self.theta0, max(Fraction(math.pi) - self.theta0, Fraction(1, 1 << 60)))
+        return Pendulum(rounding(self.theta0 - edge / (1 << 20)), self.g, self.length)
 
     def closed_form(self, m: EllipticArithmetic) -> Libration:
         """The closed form in balls or in mpmath."""

@@ -1,0 +1,230 @@
+"""The loop over steps: every number of steps and every start a lane, in memory that does not grow with N.
+
+Lanes that can share a compiled block are marched together.  In a long march whose N is a multiple of a power of two
+the block is long and gives its last state only, and samples fall on the ends of blocks; elsewhere the block is short
+and gives every state.
+"""
+
+from __future__ import annotations
+
+import math
+from collections import defaultdict
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from compare.trace import compile_block
+from reference.arithmetic import BALL
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+    from fractions import Fraction
+
+    from flint import arb
+
+    from compare.method import Method
+    from compare.precision import Precision
+    from compare.trace import Block, Record
+    from reference.problem import Problem
+
+__all__ = ["Lane", "March", "StartInvariant", "iterations_for", "march", "sample_steps"]
+
+LONG_BLOCKS, SHORT_BLOCK = (64, 32, 16), 16
+LONG_MARCH = 8192
+BLOCK_EVALUATIONS, MIN_BLOCK = 256, 8
+MAX_CONTRACTION = 0.5
+CONVERGED = 1000
+"""A last fixed-point iteration may change the state by this many roundings."""
+
+
+@dataclass(frozen=True)
+class Lane:
+    """One march: a problem from its start in n steps of size h.
+
+    Attributes:
+        h: the exact step size, a number of the format.
+        samples: the step numbers, increasing and at most n, at which the state is kept.
+    """
+
+    problem: Problem
+    n: int
+    h: Fraction
+    samples: tuple[int, ...]
+
+
+@dataclass(frozen=True)
+class March:
+    """What a lane gave.
+
+    Attributes:
+        states: [samples, state] in the format; NaN where the stage equations of an implicit method did not converge.
+        max_drift: the largest |invariant - its start| after any step.
+        evaluations: of the right-hand side, over the march.
+    """
+
+    states: np.ndarray
+    max_drift: float
+    evaluations: int
+
+
+@dataclass(frozen=True)
+class StartInvariant:
+    """The invariant of a problem at its exact start, to be rounded to any format."""
+
+    problem: Problem
+
+    def ball(self) -> arb:
+        """The enclosure at the precision in force."""
+        start = [BALL.number(value) for value in self.problem.start]
+        parameters = {name: BALL.number(value) for name, value in self.problem.parameters.items()}
+        ball: arb = self.problem.invariant(BALL, start, parameters)
+        return ball
+
+
+def sample_steps(n: int, count: int) -> tuple[int, ...]:
+    """At most ``count`` steps spread evenly over 1 ... n, the last n, each at the end of a block of the march."""
+    grain = _grain(n)
+    spread = min(count, n // grain)
+    return tuple(grain * -(-(n // grain) * (j + 1) // spread) for j in range(spread))
+
+
+def _grain(n: int) -> int:
+    """Steps per block where only the last state of each is wanted; 1 where every state is."""
+    return next((block for block in LONG_BLOCKS if n % block == 0 and n >= LONG_MARCH), 1)
+
+
+def _block_steps(grain: int, evaluations: int) -> int:
+    """Steps that one compiled block takes: a divisor of the grain that keeps the block's code of moderate length."""
+    while grain > MIN_BLOCK and grain * evaluations > BLOCK_EVALUATIONS:
+        grain //= 2
+    return grain
+
+
+def iterations_for(method: Method, problem: Problem, h: float, bits: int) -> int | None:
+    """Fixed-point iterations that bring the stages to rounding: 0 for an explicit method, else 8, 24, 72 or 216.
+
+    None where an iteration would gain less than a bit.
+    """
+    contraction = method.contraction(h * problem.rate())
+    if contraction == 0:
+        return 0
+    if contraction > MAX_CONTRACTION:
+        return None
+    needed = (bits + 3) / -math.log2(contraction)
+    return next((count for count in (8, 24, 72, 216) if count > needed), None)
+
+
+def march(method: Method, lanes: Sequence[Lane], fmt: Precision) -> list[March]:
+    """March every lane, all of one family of problems, and return what each gave, in order.
+
+    Raises:
+        ValueError: the method needs a separable problem and this one is not.
+        TraceError: the compiled step is not the plain one.
+    """
+    results: dict[int, March] = {}
+    groups: dict[tuple[int, int], list[int]] = defaultdict(list)
+    for i, lane in enumerate(lanes):
+        if method.separable_only and not getattr(lane.problem, "positions", 0):
+            raise ValueError(f"{method.name} splits kicks from drifts, and {lane.problem.name} is not separable.")
+        iterations = iterations_for(method, lane.problem, float(lane.h), fmt.bits)
+        if iterations is None:
+            results[i] = March(np.full((len(lane.samples), len(lane.problem.state_names)), np.nan), math.nan, 0)
+        else:
+            grain = _grain(lane.n)
+            groups[grain if all(step % grain == 0 for step in lane.samples) else 1, iterations].append(i)
+    for (grain, iterations), members in groups.items():
+        members.sort(key=lambda i: -lanes[i].n)
+        group = _Group(method, [lanes[i] for i in members], fmt, grain, iterations)
+        results.update(zip(members, group.run(), strict=True))
+    return [results[i] for i in range(len(lanes))]
+
+
+class _Group:
+    """Lanes in order of falling N, marched in lockstep by one compiled block until the longest has ended."""
+
+    def __init__(self, method: Method, lanes: Sequence[Lane], fmt: Precision, grain: int, iterations: int) -> None:
+        self.method, self.lanes, self.fmt, self.iterations = method, lanes, fmt, iterations
+        problem = lanes[0].problem
+        self.every = grain == 1
+        self.steps = _block_steps(SHORT_BLOCK if self.every else grain, method.evaluations(iterations)[0])
+        self.batch = min(fmt.lanes, 1 << (max(len(lanes), 8) - 1).bit_length())
+        self.dimension = len(problem.state_names)
+        self.ends = np.array([lane.n for lane in lanes])
+        record: Record = "every" if self.every else "last"
+        self.block: Block = compile_block(method, problem, fmt, self.steps, record, self.batch, iterations)
+        self.states = [fmt.zeros((len(lane.samples), self.dimension)) for lane in lanes]
+        self.maxima = np.zeros((len(lanes), 2))
+
+    def run(self) -> list[March]:
+        """March to the end of every lane."""
+        lanes, parameters = self._start()
+        events = self._events()
+        rows = len(lanes)
+        spare = self.fmt.zeros((self.block.out_rows(rows), lanes.shape[1]))
+        out = self.fmt.zeros(spare.shape)
+        taken = 0
+        while lanes.shape[1]:
+            self.block(lanes, parameters, out)
+            per_block = out.reshape(-1, rows, lanes.shape[1])
+            if taken in events:
+                for lane, sample, offset in events[taken]:
+                    self.states[lane][sample] = per_block[offset, : self.dimension, lane]
+            self._keep_maxima(per_block, taken)
+            taken += self.steps
+            lanes = per_block[-1]
+            out, spare = spare, out
+            width = self._width(taken)
+            if width < lanes.shape[1]:
+                lanes, parameters = (np.ascontiguousarray(array[:, :width]) for array in (lanes, parameters))
+                out, spare = (np.ascontiguousarray(array[:, :width]) for array in (out, spare))
+        return [self._result(i) for i in range(len(self.lanes))]
+
+    def _start(self) -> tuple[np.ndarray, np.ndarray]:
+        """Input rows and parameter rows of the padded lanes."""
+        padded = [*self.lanes, *[self.lanes[-1]] * (self._width(0) - len(self.lanes))]
+        starts = [self.fmt.array(lane.problem.start[i] for lane in padded) for i in range(self.dimension)]
+        names = list(padded[0].problem.parameters)
+        zero = self.fmt.zeros((len(padded),))
+        invariants = {lane.problem: self.fmt.number(StartInvariant(lane.problem)) for lane in padded}
+        parameters = [
+            self.fmt.array(lane.h for lane in padded),
+            np.array([invariants[lane.problem] for lane in padded], dtype=self.fmt.type),
+            *(self.fmt.array(lane.problem.parameters[name] for lane in padded) for name in names),
+        ]
+        return np.stack([*starts, zero, zero]), np.stack(parameters)
+
+    def _events(self) -> dict[int, list[tuple[int, int, int]]]:
+        """First step of a block -> (lane, sample, offset in the block's output) of the states to keep."""
+        events: dict[int, list[tuple[int, int, int]]] = defaultdict(list)
+        for i, lane in enumerate(self.lanes):
+            for sample, step in enumerate(lane.samples):
+                offset = (step - 1) % self.steps
+                events[step - 1 - offset].append((i, sample, offset if self.every else 0))
+        return events
+
+    def _keep_maxima(self, per_block: np.ndarray, taken: int) -> None:
+        """Note the largest drift and change: of every step where they are listed, else when a lane ends."""
+        count = min(len(self.lanes), per_block.shape[2])
+        left = self.ends[:count] - taken
+        if self.every:
+            steps = np.arange(self.steps)[:, None, None]
+            values = per_block[:, self.dimension :, :count].astype(np.float64)
+            values = np.where(steps < left, values, 0.0).max(axis=0)
+            self.maxima[:count] = np.maximum(self.maxima[:count], values.T)
+        elif np.any(left == self.steps):
+            ended = np.flatnonzero(left == self.steps)
+            self.maxima[ended] = per_block[-1, self.dimension :, ended].astype(np.float64)
+
+    def _width(self, taken: int) -> int:
+        """Lanes still marching, padded to whole batches."""
+        return self.batch * -(-int(np.count_nonzero(self.ends > taken)) // self.batch)
+
+    def _result(self, i: int) -> March:
+        lane, states = self.lanes[i], self.states[i]
+        drift, change = self.maxima[i]
+        size = max(1.0, float(np.max(np.abs(states.astype(np.float64)))))
+        if not change <= CONVERGED * self.fmt.epsilon * size:
+            states, drift = np.full(states.shape, np.nan), math.nan
+        per_step, once = self.method.evaluations(self.iterations)
+        return March(states, float(drift), per_step * lane.n + once)

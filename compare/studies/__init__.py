@@ -1,0 +1,1 @@
+"""One module a study: which courses are marched, what is scored, what is kept to be drawn."""
