@@ -1,6 +1,31 @@
 """Reference values of classical mechanics, proven correctly rounded."""
 
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
 from reference.certify import Certified
 from reference.problems.pendulum import Pendulum
 
-__all__ = ["Certified", "Pendulum"]
+if TYPE_CHECKING:
+    import os
+
+    from reference.store import Dataset
+
+__all__ = ["Certified", "Pendulum", "__version__", "load"]
+
+__version__ = "0.1.0"
+
+
+def load(path: str | os.PathLike[str] | None = None) -> Dataset:
+    """Check a dataset and return it; without a path, the core dataset that ships with the package.
+
+    ``load()["pendulum/libration/period"]`` has ``value`` (float64), ``tail`` (its next two limbs) and ``units``.
+
+    Raises:
+        FileNotFoundError: there is no such file; the message says how to build it.
+        DatasetError: a ValueError: the file is truncated, altered, of another schema, or no dataset.
+    """
+    from reference.store import load as load_checked
+
+    return load_checked(path)

@@ -1,0 +1,174 @@
+"""``python -m reference``: build, verify, show, at, cite, datasheet."""
+
+from __future__ import annotations
+
+import argparse
+import os
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from reference.terminal import Parser, one_of, progress_bar, run
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+FORMATS = ("text", "json")
+CITE_FORMATS = ("bibtex", "text")
+PROFILE_NAMES = ("core", "full")
+
+
+def command(arguments: Sequence[str] | None = None) -> int:
+    """Parse the arguments, run the command they name, return its exit code."""
+    asked = _parser().parse_args(arguments)
+    return int(asked.run(asked))
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """The command line; exit code 0, 1 where a proof failed, 2 where the user must change something."""
+    return run(command, arguments)
+
+
+def _parser() -> Parser:
+    parser = Parser(prog="python -m reference", description="Reference values, proven correctly rounded.")
+    commands = parser.add_subparsers(dest="command", metavar="COMMAND", required=True, parser_class=Parser)
+    build = commands.add_parser("build", help="prove the values of a profile and write them as a dataset")
+    build.add_argument("--out", metavar="FILE", help="the file to write (default: the core dataset's place)")
+    build.add_argument("--profile", type=one_of("profile", PROFILE_NAMES), default="core", help="core or full")
+    _add_workers(build)
+    build.set_defaults(run=_build)
+    verify = commands.add_parser("verify", help="check a dataset and prove its values again")
+    verify.add_argument("file", metavar="FILE")
+    _add_workers(verify)
+    verify.set_defaults(run=_verify)
+    show = commands.add_parser("show", help="print a dataset's tree, or one variable with its values")
+    show.add_argument("file", metavar="FILE")
+    show.add_argument("path", metavar="PATH", nargs="?", help="a group or variable, such as pendulum/libration/period")
+    show.add_argument("--format", type=one_of("format", FORMATS), default="text", help="text or json")
+    show.set_defaults(run=_show)
+    _add_at(commands)
+    cite = commands.add_parser("cite", help="print how to cite the dataset, with version and fingerprint")
+    cite.add_argument("file", metavar="FILE", nargs="?", help="default: the core dataset")
+    cite.add_argument("--format", type=one_of("format", CITE_FORMATS), default="bibtex", help="bibtex or text")
+    cite.set_defaults(run=_cite)
+    datasheet = commands.add_parser("datasheet", help="print the datasheet of a dataset, in Markdown")
+    datasheet.add_argument("file", metavar="FILE", nargs="?", help="default: the core dataset")
+    datasheet.set_defaults(run=_datasheet)
+    return parser
+
+
+def _jobs(text: str) -> int:
+    if not (text.isascii() and text.isdigit() and 1 <= int(text) <= 4096):
+        raise argparse.ArgumentTypeError(f"jobs is '{text}'; an integer from 1 to 4096 is accepted.")
+    return int(text)
+
+
+def _add_workers(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("--jobs", type=_jobs, default=os.cpu_count() or 1, metavar="N", help="processes (default: all)")
+    parser.add_argument("--executor", default="process", metavar="NAME", help="process, dask:ADDRESS or mpi")
+    parser.add_argument("--quiet", action="store_true", help="no progress bar, no summary")
+
+
+def _add_at(commands: argparse._SubParsersAction[Parser]) -> None:
+    from reference.at import FAMILIES
+
+    at = commands.add_parser("at", help="print proven values at one time, now")
+    families = at.add_subparsers(dest="family", metavar="FAMILY", required=True, parser_class=Parser)
+    for family in FAMILIES:
+        parser = families.add_parser(family.name, help=family.help)
+        for asked in family.inputs:
+            default = "" if asked.default is None else f" (default: {asked.default})"
+            parser.add_argument(
+                f"--{asked.name}",
+                required=asked.default is None,
+                default=asked.default,
+                metavar="NUMBER",
+                help=f"{asked.help}, in {asked.units}{default}",
+            )
+        parser.add_argument("--t", required=True, metavar="NUMBER", help="time, in s")
+        parser.add_argument("--digits", default="50", metavar="N", help="significant digits (default: 50)")
+        parser.add_argument("--exact", action="store_true", help="take decimals and fractions as written")
+        parser.add_argument("--routes", action="store_true", help="hold the other routes against each value")
+        parser.add_argument("--format", type=one_of("format", FORMATS), default="text", help="text or json")
+        parser.set_defaults(run=_at, known_as=family)
+
+
+def _at(asked: argparse.Namespace) -> int:
+    from reference import at
+
+    family = asked.known_as
+    digits = at.digits_count(asked.digits)
+    names = [wanted.name for wanted in family.inputs]
+    inputs = {name: at.number(name, getattr(asked, name), as_written=asked.exact) for name in (*names, "t")}
+    problem = family.problem(**{name: inputs[name] for name in names})
+    found = at.quantities(family, problem, inputs["t"])
+    if asked.format == "json":
+        print(at.as_json(found, digits, routes=asked.routes))
+    else:
+        print(at.as_text(family, inputs, found, digits, routes=asked.routes))
+    return 0
+
+
+def _build(asked: argparse.Namespace) -> int:
+    from reference.build import build
+    from reference.catalogue import plan
+
+    out = Path(asked.out) if asked.out is not None else _default_out(asked.profile)
+    with progress_bar("proving", quiet=asked.quiet) as progress:
+        fingerprint = build(plan(asked.profile), out, jobs=asked.jobs, executor=asked.executor, progress=progress)
+    if not asked.quiet:
+        print(f"{out}: {out.stat().st_size} bytes, fingerprint sha256:{fingerprint}")
+    return 0
+
+
+def _default_out(profile: str) -> Path:
+    """The place of the shipped file for the core profile in a checkout, else the working folder."""
+    from reference.store import core_path
+
+    checkout = Path(__file__).resolve().parents[1]
+    if profile == "core" and (checkout / "pyproject.toml").exists() and (checkout / "data").is_dir():
+        return core_path()
+    return Path(f"horologium-{profile}.h5")
+
+
+def _verify(asked: argparse.Namespace) -> int:
+    from reference.verify import verify
+
+    with progress_bar("proving again", quiet=asked.quiet) as progress:
+        proofs = verify(asked.file, jobs=asked.jobs, executor=asked.executor, progress=progress)
+    for proof in proofs:
+        if not (asked.quiet and proof.holds):
+            print(proof)
+    failed = sum(not proof.holds for proof in proofs)
+    if not asked.quiet:
+        print(f"{len(proofs) - failed} of {len(proofs)} variables proven.")
+    return 1 if failed else 0
+
+
+def _show(asked: argparse.Namespace) -> int:
+    from reference.show import show
+    from reference.store import load
+
+    for line in show(load(asked.file), asked.path, asked.format):
+        print(line)
+    return 0
+
+
+def _cite(asked: argparse.Namespace) -> int:
+    from reference.cite import cite
+    from reference.store import load
+
+    print(cite(load(asked.file), asked.format))
+    return 0
+
+
+def _datasheet(asked: argparse.Namespace) -> int:
+    from reference.datasheet import datasheet
+    from reference.store import load
+
+    print(datasheet(load(asked.file)), end="")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,143 @@
+"""One proven value, now: the families that the command line knows, and what it prints of them."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import TYPE_CHECKING
+
+from reference.exact import as_number, exact, spelled
+from reference.problems.pendulum import Pendulum
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from reference.certify import Certified
+    from reference.problem import Problem
+
+__all__ = ["DIGITS_LIMIT", "FAMILIES", "Family", "Input", "as_json", "as_text", "digits_count", "number", "quantities"]
+
+DIGITS_LIMIT = 30_000
+"""Digits that the bound on the working precision leaves room for."""
+
+
+@dataclass(frozen=True)
+class Input:
+    """A number that the command line asks for: its units, and its default as it would be typed."""
+
+    name: str
+    units: str
+    help: str
+    default: str | None = None
+
+
+@dataclass(frozen=True)
+class Family:
+    """A family of problems as the command line knows it: its inputs, and the rows it prints, at the time or once."""
+
+    name: str
+    help: str
+    problem: Callable[..., Problem]
+    inputs: tuple[Input, ...]
+    rows: tuple[str, ...]
+
+
+TIME = Input("t", "s", "time")
+FAMILIES = (
+    Family(
+        "pendulum",
+        "the mathematical pendulum, released from rest",
+        Pendulum,
+        (
+            Input("theta0", "rad", "amplitude, 0 < theta0 < pi"),
+            Input("g", "m s-2", "acceleration of gravity", "9.81"),
+            Input("length", "m", "length", "1"),
+        ),
+        ("state", "period", "energy"),
+    ),
+)
+
+
+def number(name: str, text: str, *, as_written: bool) -> Fraction:
+    """A number of the command line: the binary64 number that it spells in a program, or exactly as written.
+
+    Raises:
+        ValueError: it spells no finite number.
+    """
+    if as_written:
+        return exact(text, name)
+    try:
+        value = float(text)
+    except ValueError:
+        _ = exact(text, name)  # says so where it is no number at all
+        raise ValueError(f"{name} is '{text}', a fraction; with --exact fractions are taken as written.") from None
+    return exact(value, name)
+
+
+def digits_count(text: str) -> int:
+    """The number of digits asked for.
+
+    Raises:
+        ValueError: it is not an integer from 1 to DIGITS_LIMIT.
+    """
+    count = int(text) if text.isascii() and text.isdigit() and len(text) <= len(str(DIGITS_LIMIT)) else 0
+    if not 1 <= count <= DIGITS_LIMIT:
+        raise ValueError(f"digits is '{text}'; an integer from 1 to {DIGITS_LIMIT} is accepted.")
+    return count
+
+
+def quantities(family: Family, problem: Problem, time: Fraction) -> list[Certified]:
+    """The family's quantities at a time in s, each a proven number."""
+    return [
+        problem.certified(name, time if problem.row(name).over == "time" else None, component)
+        for name in family.rows
+        for component in range(len(problem.row(name).quantities))
+    ]
+
+
+def as_json(found: list[Certified], digits: int, *, routes: bool) -> str:
+    """One object: name to decimal string; with ``routes`` also "routes", name to digits agreed by each."""
+    answer: dict[str, object] = {value.quantity.name: value.digits(digits) for value in found}
+    if routes:
+        answer["routes"] = {value.quantity.name: _agreed(value) for value in found}
+    return json.dumps(answer, indent=2)
+
+
+def as_text(family: Family, inputs: dict[str, Fraction], found: list[Certified], digits: int, *, routes: bool) -> str:
+    """The inputs as they were solved, then one line a quantity with its units."""
+    units = {asked.name: asked.units for asked in (*family.inputs, TIME)}
+    lines = [f"{family.name}: {family.help}", "inputs, exact:"]
+    lines += [f"  {name} = {_shown(value)} {units[name]}" for name, value in inputs.items()]
+    lines.append(f"values, {digits} significant digits, every one proven:")
+    for value in found:
+        unit = "" if value.quantity.units == "1" else f" {value.quantity.units}"
+        lines.append(f"  {value.quantity.name} = {value.digits(digits)}{unit}")
+        if routes:
+            agreed = ", ".join(f"{route} {count:.1f} digits" for route, count in _agreed(value).items())
+            lines.append(f"    agreed by {agreed}")
+    return "\n".join(lines)
+
+
+def _agreed(value: Certified) -> dict[str, float]:
+    return {route: digits for route, digits in value.routes.items() if route != "enclosure"}
+
+
+def _shown(value: Fraction) -> str:
+    """A binary64 number as decimal repr, exact value and hex float; another number as it is written."""
+    simple = as_number(value)
+    if isinstance(simple, str):
+        return simple
+    whole = _decimal(value)
+    same = Fraction(repr(simple)) == value
+    return f"{simple!r} ({simple.hex()})" if same else f"{simple!r} (exactly {whole}, {simple.hex()})"
+
+
+def _decimal(value: Fraction) -> str:
+    """The exact decimal expansion of a binary64 number."""
+    short = spelled(value)
+    if "/" not in short:
+        return short
+    places = value.denominator.bit_length() - 1
+    whole, rest = divmod(abs(value.numerator) * 10**places // value.denominator, 10**places)
+    return f"{'-' if value < 0 else ''}{whole}.{rest:0{places}d}"

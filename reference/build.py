@@ -1,0 +1,188 @@
+"""From a plan to a file: prove the blocks, in parallel and resumable, then write them one by one."""
+
+from __future__ import annotations
+
+import errno
+import math
+import os
+import platform
+import shutil
+from collections import defaultdict
+from dataclasses import dataclass, field
+from datetime import UTC, datetime
+from importlib.metadata import version as installed
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import reference
+from reference.blocks import compute
+from reference.certify import ROUTES
+from reference.executors import opened, results
+from reference.partial import partial
+from reference.store.files import destination, note_checksum, replacing, sha256
+from reference.store.writer import writing
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from reference.blocks import Result
+    from reference.partial import Partial
+    from reference.plan import Plan
+    from reference.store.writer import Writer
+
+__all__ = ["build", "provenance"]
+
+TOOLS = ("heyoka", "mpmath", "gmpy2", "python-flint", "h5py", "numpy")
+DISK_FULL = {errno.ENOSPC, errno.EFBIG, errno.EDQUOT}
+SPACE = 2.5
+"""Bytes needed on the way for each byte of numbers: the blocks, the file, and their overhead."""
+
+
+def build(
+    plan: Plan,
+    out: str | os.PathLike[str],
+    *,
+    jobs: int = 1,
+    executor: str = "process",
+    progress: Callable[[int, int], None] | None = None,
+) -> str:
+    """Build the dataset of a plan as the file ``out`` and note its checksum beside it; return its fingerprint.
+
+    The old file stays until the new one takes its place.  ``progress(done, all)`` is called after each block.
+
+    Raises:
+        OSError: ``out`` is a folder, its folder is missing or cannot be written, or the disk is full.
+        ArithmeticError: the routes disagree, or a value could not be decided; names the problem and its values.
+        ValueError, ImportError: the executor is unknown, or its package is not installed.
+        BusyError, WorkerError: another build of the same file is running; a worker process died.
+    """
+    target = destination(out)
+    try:
+        _ensure_space(plan, target)
+        with partial(target, plan.identity(reference.__version__)) as finished:
+            _prove(plan, finished, jobs, executor, progress or (lambda _done, _all: None))
+            return _write(plan, target, finished)
+    except (PermissionError, FileNotFoundError) as error:
+        raise OSError(f"'{out}' cannot be written: {error.strerror}.") from None
+    except OSError as error:
+        full = error.errno in DISK_FULL or any(os.strerror(number) in str(error) for number in DISK_FULL)
+        reason = "the disk is full" if full else error.strerror or str(error)
+        raise OSError(f"'{out}' was not written: {reason}; nothing was left behind.") from None
+
+
+def _ensure_space(plan: Plan, target: Path) -> None:
+    needed, free = int(SPACE * plan.size), shutil.disk_usage(target.parent).free
+    if free < needed:
+        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+
+
+def _prove(plan: Plan, finished: Partial, jobs: int, executor: str, progress: Callable[[int, int], None]) -> None:
+    """Prove every block that is not finished yet."""
+    total = sum(1 for _ in plan.blocks())
+    pending = sum(1 for block in plan.blocks() if not finished.has(block))
+    done = total - pending
+    progress(done, total)
+    workers = max(1, min(jobs, pending)) if jobs > 0 else jobs
+    with opened(executor, workers) as pool:
+        open_blocks = (block for block in plan.blocks() if not finished.has(block))
+        for block, result in results(pool, compute, open_blocks, workers):
+            finished.put(block, result)
+            done += 1
+            progress(done, total)
+
+
+@dataclass
+class Tally:
+    """What is known of one variable besides its values, gathered block by block."""
+
+    decimals: list[str] = field(default_factory=list)
+    digits: list[float] = field(default_factory=lambda: [math.inf] * len(ROUTES))
+    checked: list[int] = field(default_factory=lambda: [0] * len(ROUTES))
+    elements: int = 0
+
+    def add(self, result: Result, component: int) -> None:
+        """Add the variable's share of a block."""
+        self.elements += len(result.limbs)
+        self.decimals += result.decimals[component : component + 1]
+        for i in range(len(ROUTES)):
+            self.digits[i] = min(self.digits[i], float(result.digits[i, component]))
+            self.checked[i] += int(result.checked[i, component])
+
+    def attributes(self) -> dict[str, str | float | int]:
+        """The attributes that a variable carries of it."""
+        found: dict[str, str | float | int] = {}
+        for route, digits, checked in zip(ROUTES, self.digits, self.checked, strict=True):
+            found[f"{route}_checked_elements"] = checked
+            if checked:
+                found[f"{route}_digits"] = digits
+            else:
+                found[f"{route}_reason"] = f"the {route} route does not give this quantity"
+        found["checked_elements"] = min(checked for checked in self.checked if checked)
+        if self.decimals:
+            found["decimal"] = " ".join(self.decimals)
+        return found
+
+
+def _write(plan: Plan, target: Path, finished: Partial) -> str:
+    """Write the finished blocks in the order of the plan, and let the file take its place."""
+    with replacing(target) as temporary:
+        try:
+            with writing(temporary, plan) as writer:
+                _fill(plan, writer, finished)
+                fingerprint = writer.finish(reference.__version__, plan.profile, provenance())
+        except RuntimeError as error:
+            raise OSError(str(error)) from None
+        digest = sha256(temporary)
+        note_checksum(target, None)
+    note_checksum(target, digest)
+    return fingerprint
+
+
+def _fill(plan: Plan, writer: Writer, finished: Partial) -> None:
+    tallies: dict[str, Tally] = defaultdict(Tally)
+    trajectories: dict[tuple[str, int, str], list[int]] = {}
+    for block in plan.blocks():
+        result = finished.get(block) or compute(block)
+        writer.put(block, result.limbs)
+        for i, quantity in enumerate(block.row.quantities):
+            tallies[f"{block.layout.path}/{quantity.name}"].add(result, i)
+        so_far = trajectories.setdefault((block.layout.path, block.element, block.row.name), [0] * len(ROUTES))
+        so_far[:] = [a + int(b) for a, b in zip(so_far, result.checked[:, 0], strict=True)]
+    _require_checked(trajectories)
+    for path, tally in tallies.items():
+        writer.describe(path, tally.attributes())
+
+
+def _require_checked(trajectories: dict[tuple[str, int, str], list[int]]) -> None:
+    """A route that serves a row at all must have been compared on every instance of it."""
+    served: dict[tuple[str, str], list[int]] = {}
+    for (path, _, row), checked in trajectories.items():
+        most = served.setdefault((path, row), [0] * len(ROUTES))
+        most[:] = [max(a, b) for a, b in zip(most, checked, strict=True)]
+    for (path, element, row), checked in trajectories.items():
+        for route, serves, here in zip(ROUTES, served[path, row], checked, strict=True):
+            if serves and not here:
+                raise ArithmeticError(f"{row} of {path} at element {element} was not compared with the {route} route.")
+
+
+def provenance() -> dict[str, str]:
+    """What the file was made with: versions and processor, and the date only where SOURCE_DATE_EPOCH gives one.
+
+    Raises:
+        ValueError: SOURCE_DATE_EPOCH is no whole number of seconds.
+    """
+    found = {tool.replace("-", "_"): installed(tool) for tool in TOOLS}
+    found |= {"python": platform.python_version(), "platform": platform.platform(), "cpu": _cpu()}
+    epoch = os.environ.get("SOURCE_DATE_EPOCH")
+    if epoch is not None:
+        if not epoch.isdecimal() or len(epoch) > 11:
+            raise ValueError(f"SOURCE_DATE_EPOCH is '{epoch}'; a whole number of seconds since 1970 is accepted.")
+        found["date"] = datetime.fromtimestamp(int(epoch), UTC).isoformat()
+    return found
+
+
+def _cpu() -> str:
+    listing = Path("/proc/cpuinfo")
+    lines = listing.read_text(encoding="utf-8").splitlines() if listing.exists() else []
+    names = [line.partition(":")[2].strip() for line in lines if line.startswith("model name")]
+    return next(iter(names), "") or platform.processor() or platform.machine()

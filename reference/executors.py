@@ -1,0 +1,135 @@
+"""Where blocks run: in this process, in a pool of processes, on a Dask cluster, or under MPI."""
+
+from __future__ import annotations
+
+import multiprocessing
+import os
+import signal
+import threading
+from collections import deque
+from concurrent.futures import FIRST_COMPLETED, Executor, Future, ProcessPoolExecutor, wait
+from concurrent.futures.process import BrokenProcessPool
+from contextlib import contextmanager
+from importlib import import_module
+from typing import TYPE_CHECKING, Any, TypeVar
+
+from reference.names import unknown
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable, Iterator
+
+__all__ = ["EXECUTORS", "WorkerError", "opened", "results"]
+
+EXECUTORS = ("process", "dask:ADDRESS", "mpi")
+AHEAD = 4
+"""Tasks kept waiting for each worker: enough to keep it busy, few enough that memory stays bounded."""
+
+
+class WorkerError(RuntimeError):
+    """A process that worked on a block died."""
+
+
+Task = TypeVar("Task")
+Answer = TypeVar("Answer")
+
+
+class Inline(Executor):
+    """Runs each task at once in this process."""
+
+    def submit(self, fn: Callable[..., Any], /, *args: Any, **kwargs: Any) -> Future[Any]:
+        """Return a finished future; what ``fn`` raises is raised here and now."""
+        future: Future[Any] = Future()
+        future.set_result(fn(*args, **kwargs))
+        return future
+
+
+@contextmanager
+def opened(name: str, jobs: int) -> Iterator[Executor]:
+    """Open an executor: "process" with ``jobs`` processes (one job runs here), "dask:ADDRESS" or "mpi".
+
+    Raises:
+        ValueError: the name is unknown, or ``jobs`` is less than one.
+        ImportError: the cluster package is not installed.
+    """
+    if jobs < 1:
+        raise ValueError(f"jobs is {jobs}; a positive integer is accepted.")
+    kind, _, address = name.partition(":")
+    if kind == "dask" and address:
+        with _dask(address) as executor:
+            yield executor
+    elif name == "mpi":
+        with _mpi(jobs) as executor:
+            yield executor
+    elif name != "process":
+        raise ValueError(unknown("executor", name, EXECUTORS))
+    elif jobs == 1:
+        yield Inline()
+    else:
+        context = multiprocessing.get_context("spawn")
+        with ProcessPoolExecutor(jobs, context, initializer=_follow_parent) as executor:
+            yield executor
+
+
+def _follow_parent() -> None:
+    """Leave an interrupt to the parent, and end when it ends, however it does."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    parent = multiprocessing.parent_process()
+
+    def watch() -> None:
+        if parent is not None:
+            parent.join()
+            os._exit(1)
+
+    threading.Thread(target=watch, daemon=True).start()
+
+
+@contextmanager
+def _dask(address: str) -> Iterator[Executor]:
+    try:
+        client_class = import_module("dask.distributed").Client
+    except ImportError:
+        raise ImportError("dask.distributed is not installed; 'pip install horologium[cluster]' provides it.") from None
+    with client_class(address) as client:
+        yield client.get_executor()
+
+
+@contextmanager
+def _mpi(jobs: int) -> Iterator[Executor]:
+    try:
+        pool_class = import_module("mpi4py.futures").MPIPoolExecutor
+    except ImportError:
+        raise ImportError("mpi4py is not installed; 'pip install horologium[cluster]' provides it.") from None
+    with pool_class(max_workers=jobs) as executor:
+        yield executor
+
+
+def results(
+    executor: Executor, function: Callable[[Task], Answer], tasks: Iterable[Task], jobs: int
+) -> Iterator[tuple[Task, Answer]]:
+    """Yield each task with its answer as they finish; never more than a few tasks a worker are in flight.
+
+    Raises:
+        WorkerError: a worker process died.
+    """
+    queue = iter(tasks)
+    running: dict[Future[Answer], Task] = {}
+    done: deque[Future[Answer]] = deque()
+    try:
+        while True:
+            while len(running) < AHEAD * jobs and (task := next(queue, None)) is not None:
+                running[executor.submit(function, task)] = task
+                if isinstance(executor, Inline):
+                    break
+            if not running:
+                return
+            done.extend(wait(running, return_when=FIRST_COMPLETED).done)
+            while done:
+                future = done.popleft()
+                yield running.pop(future), future.result()
+    except BrokenProcessPool:
+        raise RuntimeError(
+            "a worker process died before its block was finished; the finished blocks are kept."
+        ) from None
+    finally:
+        for future in running:
+            future.cancel()

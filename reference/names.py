@@ -1,0 +1,22 @@
+"""The sentence for a name that is not known: what was given, the nearest valid names, and all that are accepted."""
+
+from __future__ import annotations
+
+from difflib import get_close_matches
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+__all__ = ["unknown"]
+
+SHOWN = 12
+
+
+def unknown(kind: str, given: str, names: Iterable[str]) -> str:
+    """Return for example "profile 'cor' is unknown; did you mean 'core'?  Accepted: core, full."."""
+    accepted = sorted(names)
+    near = get_close_matches(given, accepted, n=3, cutoff=0.5)
+    guess = f" did you mean {' or '.join(repr(name) for name in near)}?" if near else ""
+    more = ", ..." if len(accepted) > SHOWN else ""
+    return f"{kind} '{given}' is unknown;{guess} accepted: {', '.join(accepted[:SHOWN])}{more}."

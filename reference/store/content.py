@@ -1,0 +1,98 @@
+"""What a file says, read in a defined order: its objects, their dimensions, and the fingerprint of it all."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import h5py
+import numpy as np
+
+from reference.store.errors import DatasetError
+from reference.store.fingerprint import Digest, pieces
+from reference.store.schema import PROVENANCE
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+__all__ = ["dimensions", "fingerprint", "parameters_of", "text_attribute"]
+
+
+def text_attribute(target: Any, name: str) -> str:
+    """A text attribute of a group or dataset.
+
+    Raises:
+        DatasetError: it is missing or no text.
+    """
+    if name not in target.attrs:
+        raise DatasetError(f"'{target.file.filename}': {target.name} has no attribute '{name}'.")
+    value = target.attrs[name]
+    if not isinstance(value, (bytes, str)):
+        raise DatasetError(f"'{target.file.filename}': the attribute '{name}' of {target.name} is no text.")
+    return value if isinstance(value, str) else value.decode()
+
+
+def parameters_of(group: h5py.Group) -> dict[str, float]:
+    """The fixed parameters of a group by name; empty where it names none.
+
+    Raises:
+        DatasetError: one that it names is not there as a finite float64.
+    """
+    names = text_attribute(group, "parameters").split() if "parameters" in group.attrs else []
+    found = {}
+    for name in names:
+        number = group.attrs.get(name)
+        if not isinstance(number, np.float64) or not np.isfinite(number):
+            raise DatasetError(f"'{group.file.filename}': the parameter '{name}' of {group.name} is no finite float64.")
+        found[name] = float(number)
+    return found
+
+
+def dimensions(dataset: h5py.Dataset) -> tuple[str, ...]:
+    """The names of a dataset's axes; a scale's own is its name.
+
+    Raises:
+        DatasetError: an axis has not exactly one scale.
+    """
+    if dataset.is_scale:
+        return (dataset.name.rpartition("/")[2],)
+    names = []
+    for i, axis in enumerate(dataset.dims):
+        if len(axis) != 1:
+            raise DatasetError(
+                f"'{dataset.file.filename}': axis {i} of {dataset.name} has {len(axis)} dimension scales."
+            )
+        names.append(axis[0].name.rpartition("/")[2])
+    return tuple(names)
+
+
+def fingerprint(file: h5py.File) -> str:
+    """The fingerprint of an open file: every number is read, piece by piece, and must be finite.
+
+    Raises:
+        DatasetError: a number is not finite, or what the fingerprint needs is not there.
+    """
+    digest = Digest()
+    for path, found in sorted(_objects(file), key=lambda pair: pair[0]):
+        if isinstance(found, h5py.Dataset):
+            described = text_attribute(found, "units"), text_attribute(found, "definition")
+            digest.dataset(path, found.shape, dimensions(found), described, _parts(found), found.dtype)
+        elif "parameters" in found.attrs:
+            digest.group(path, parameters_of(found))
+    return digest.hexdigest()
+
+
+def _objects(group: h5py.Group) -> Iterator[tuple[str, Any]]:
+    for name, found in group.items():
+        if group.name == "/" and name == PROVENANCE:
+            continue
+        yield found.name, found
+        if isinstance(found, h5py.Group):
+            yield from _objects(found)
+
+
+def _parts(dataset: h5py.Dataset) -> Iterator[np.ndarray]:
+    for selection in pieces(dataset.shape):
+        part = dataset[selection]
+        if not np.isfinite(part).all():
+            raise DatasetError(f"'{dataset.file.filename}': {dataset.name} has an element that is not finite.")
+        yield part

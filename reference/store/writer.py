@@ -1,0 +1,138 @@
+"""Writing the file: every dataset chunked and checksummed, filled block by block, its bytes the same every time."""
+
+from __future__ import annotations
+
+from contextlib import contextmanager
+from typing import TYPE_CHECKING, Any
+
+import h5py
+import numpy as np
+from h5py import h5d, h5p, h5s, h5t
+
+from reference.plan import BLOCK_LENGTH
+from reference.store.content import fingerprint
+from reference.store.schema import (
+    ATTRIBUTE_LIMIT,
+    FEW,
+    LIMB,
+    PROVENANCE,
+    TAIL_LIMBS,
+    arrays,
+    limb_axis,
+    root_attributes,
+)
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Mapping
+    from pathlib import Path
+
+    from reference.plan import Block, Group, Plan
+    from reference.store.schema import Array
+
+__all__ = ["Writer", "writing"]
+
+VERSION_BOUND = ("v110", "v110")
+
+
+class Writer:
+    """An open file that takes the plan's blocks one by one."""
+
+    def __init__(self, file: h5py.File, plan: Plan) -> None:
+        self._file = file
+        limb = _create(file, limb_axis(), (TAIL_LIMBS,), np.arange(TAIL_LIMBS))
+        for group in plan.groups:
+            _create_group(file, group, limb)
+
+    def put(self, block: Block, limbs: np.ndarray) -> None:
+        """Write a block: float64 (arguments, quantities, 3)."""
+        for variable in self._variables(block):
+            at = block.selection(variable)
+            found = limbs[:, variable.component]
+            if block.row.over == "once":
+                found = found[0]
+            path = f"{block.layout.path}/{variable.quantity.name}"
+            self._file[path][at] = found[..., 0]
+            self._file[f"{path}_tail"][at] = found[..., 1:]
+
+    @staticmethod
+    def _variables(block: Block) -> list[Any]:
+        return [variable for variable in block.layout.variables if variable.row.name == block.row.name]
+
+    def describe(self, path: str, attributes: Mapping[str, str | float | int]) -> None:
+        """Add attributes to a group or dataset; a text too long for an attribute is left out."""
+        _describe(self._file[path], attributes)
+
+    def finish(self, version: str, profile: str, provenance: Mapping[str, str]) -> str:
+        """Add the root's attributes, where it all came from, and the fingerprint, which is returned."""
+        _describe(self._file.create_group(PROVENANCE), provenance)
+        found = fingerprint(self._file)
+        _describe(self._file, {**root_attributes(version, profile), "fingerprint": found})
+        return found
+
+
+@contextmanager
+def writing(path: Path, plan: Plan) -> Iterator[Writer]:
+    """Open a file for a plan, laid out and its inputs written."""
+    with h5py.File(path, "w", libver=VERSION_BOUND, track_order=False) as file:
+        yield Writer(file, plan)
+
+
+def _create_group(file: h5py.File, group: Group, limb: h5py.Dataset) -> None:
+    layout = group.layout
+    target = file.create_group(layout.path)
+    _describe(target, {"long_name": layout.long_name, "parameters": " ".join(p.name for p in layout.parameters)})
+    for parameter in layout.parameters:
+        number = float(group.parameters[parameter.name])
+        described: dict[str, str | float] = {"": number, "_units": parameter.units, "_long_name": parameter.long_name}
+        described |= {"_decimal": repr(number), "_hex": number.hex()}
+        _describe(target, {parameter.name + suffix: value for suffix, value in described.items()})
+    scales = {LIMB: limb}
+    for array in arrays(layout):
+        shape = (*group.size(array.dims[:-1]), TAIL_LIMBS) if array.dims[-1] == LIMB else group.size(array.dims)
+        data = group.inputs.get(array.name)
+        dataset = _create(target, array, shape, data)
+        if array.is_scale:
+            scales[array.name] = dataset
+        else:
+            for axis, name in enumerate(array.dims):
+                dataset.dims[axis].attach_scale(scales[name])
+
+
+def _create(parent: h5py.Group, array: Array, shape: tuple[int, ...], data: np.ndarray | None) -> h5py.Dataset:
+    """A dataset in chunks of one block, with Fletcher32, allocation and fill times set, and no timestamp."""
+    chunk = tuple(min(length, BLOCK_LENGTH) for length in shape)
+    if data is None and len([name for name in array.dims if name != LIMB]) > 1:
+        chunk = (1, *chunk[1:])
+    properties = h5p.create(h5p.DATASET_CREATE)
+    properties.set_chunk(chunk)
+    properties.set_fletcher32()
+    properties.set_alloc_time(h5d.ALLOC_TIME_INCR)
+    properties.set_fill_time(h5d.FILL_TIME_ALLOC)
+    properties.set_obj_track_times(False)
+    file_type = h5t.py_create(array.dtype)
+    h5d.create(parent.id, array.name.encode(), file_type, h5s.create_simple(shape), dcpl=properties)
+    dataset = parent[array.name]
+    if data is not None:
+        dataset[...] = data
+    if array.is_scale:
+        dataset.make_scale(array.name)
+    _describe(dataset, array.attributes)
+    if "flag_meanings" in array.attributes:
+        dataset.attrs.create("flag_values", np.arange(shape[0], dtype="<i4"))
+    if data is not None and array.name != LIMB and array.dtype.kind == "f" and data.size <= FEW:
+        numbers = [float(number) for number in data]
+        exact = {"decimal": " ".join(map(repr, numbers)), "hex": " ".join(number.hex() for number in numbers)}
+        _describe(dataset, exact)
+    return dataset
+
+
+def _describe(target: Any, attributes: Mapping[str, str | float | int]) -> None:
+    """Attributes as fixed-length UTF-8, float64 or int32."""
+    for name, value in attributes.items():
+        if isinstance(value, str):
+            data = value.encode()
+            if len(data) < ATTRIBUTE_LIMIT:
+                kind = h5py.string_dtype("utf-8", max(1, len(data)))
+                target.attrs.create(name, np.array(data, dtype=kind), dtype=kind)
+        else:
+            target.attrs.create(name, np.array(value, dtype="<f8" if isinstance(value, float) else "<i4"))
