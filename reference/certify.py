@@ -6,6 +6,7 @@ the quantity has over the arguments at hand, or everything stops.
 
 from __future__ import annotations
 
+import functools
 import math
 from dataclasses import dataclass
 from fractions import Fraction
@@ -76,7 +77,8 @@ def agreement(problem: Problem, row: str, arguments: Sequence[Any], route: str) 
 def _digits(pairs: Sequence[tuple[arb, Fraction]]) -> list[float]:
     bits = int(ROUTE_DIGITS * 3.33) + 64
     with ctx.workprec(bits):
-        scale = max(float(truth.abs_upper()) for truth, _ in pairs) or 1.0
+        largest = functools.reduce(arb.max, (truth.abs_upper() for truth, _ in pairs))
+        scale = arb(1) if largest.is_zero() else largest
         gaps = [float((abs(truth - BALL.number(value)) / scale).upper()) for truth, value in pairs]
     return [min(float(ROUTE_DIGITS), -math.log10(gap)) if gap else float(ROUTE_DIGITS) for gap in gaps]
 

@@ -18,7 +18,10 @@ import numpy as np
 __all__ = ["as_number", "exact", "exact_array", "spelled"]
 
 ACCEPTED = "a finite number, a decimal string such as '9.81', or a Fraction is accepted"
-EXPONENT_LIMIT = 5000
+ROWS_ACCEPTED = "an array with rows of one length is accepted"
+LOG2_10 = math.log2(10)
+MAX_DIGITS = 4000
+"""Digits that the numerator or the denominator of an input may have, so that every input can be printed exactly."""
 
 
 def exact(value: Any, name: str = "value") -> Fraction:
@@ -27,9 +30,16 @@ def exact(value: Any, name: str = "value") -> Fraction:
     Accepts int, float, NumPy real scalars, Fraction, Decimal and strings such as ``"9.81"``, ``"1e-3"``, ``"981/100"``.
 
     Raises:
-        ValueError: the value is not finite, or a string spells no number.
+        ValueError: the value is not finite or beyond MAX_DIGITS, or a string spells no number.
         TypeError: the value is not a real number.
     """
+    found = _exact(value, name)
+    if max(found.numerator.bit_length(), found.denominator.bit_length()) > MAX_DIGITS * LOG2_10:
+        raise ValueError(f"{name} has a numerator or denominator of more than {MAX_DIGITS} digits; fewer are accepted.")
+    return found
+
+
+def _exact(value: Any, name: str) -> Fraction:
     if isinstance(value, str):
         return _spelled_number(value, name)
     if isinstance(value, (bool, np.bool_, complex, np.complexfloating)):
@@ -37,22 +47,28 @@ def exact(value: Any, name: str = "value") -> Fraction:
     if isinstance(value, (Rational, np.integer)):
         return Fraction(int(value.numerator), int(value.denominator))
     if isinstance(value, np.ndarray) and value.ndim == 0:
-        return exact(value[()], name)
+        return _exact(value[()], name)
+    if isinstance(value, Decimal) and value.is_finite():
+        return _spelled_number(str(value), name)
     if isinstance(value, (float, np.floating, Decimal)):
-        if not math.isfinite(value):
+        if isinstance(value, Decimal) or not np.isfinite(value):
             raise ValueError(f"{name} is {value}, which is not finite; {ACCEPTED}.")
         return Fraction(*(int(part) for part in value.as_integer_ratio()))
     raise TypeError(f"{name} is of type {type(value).__name__}; {ACCEPTED}.")
 
 
 def _spelled_number(text: str, name: str) -> Fraction:
-    _mantissa, _, exponent = text.lower().partition("e")
-    if exponent.strip().lstrip("+-").isdigit() and abs(int(exponent)) > EXPONENT_LIMIT:
-        raise ValueError(f"{name} is '{text}', whose exponent is beyond the limit of {EXPONENT_LIMIT}.")
+    exponent = text.lower().partition("e")[2].strip().lstrip("+-0")
+    if exponent.isdecimal() and (len(exponent) > 9 or int(exponent) > MAX_DIGITS):
+        raise ValueError(f"{name} is '{_short(text)}', whose exponent is beyond the limit of {MAX_DIGITS}.")
     try:
         return Fraction(text.strip())
     except (ValueError, ZeroDivisionError):
-        raise ValueError(f"{name} is '{text}', which spells no number; {ACCEPTED}.") from None
+        raise ValueError(f"{name} is '{_short(text)}', which spells no number; {ACCEPTED}.") from None
+
+
+def _short(text: str) -> str:
+    return text if len(text) <= 60 else f"{text[:40]}... ({len(text)} characters)"
 
 
 def exact_array(values: Any, name: str = "value") -> tuple[list[Fraction], tuple[int, ...]]:
@@ -68,10 +84,13 @@ def exact_array(values: Any, name: str = "value") -> tuple[list[Fraction], tuple
     try:
         array = values if isinstance(values, np.ndarray) else np.array(_listed(values), dtype=object)
     except ValueError:
-        raise ValueError(f"{name} is ragged; an array with rows of one length is accepted.") from None
+        raise ValueError(f"{name} is ragged; {ROWS_ACCEPTED}.") from None
     if array.size == 0:
         raise ValueError(f"{name} is empty; at least one number is accepted.")
-    return [exact(value, name) for value in array.ravel().tolist()], array.shape
+    elements = array.ravel().tolist()
+    if any(isinstance(value, (list, tuple, np.ndarray)) for value in elements):
+        raise ValueError(f"{name} is ragged; {ROWS_ACCEPTED}.")
+    return [exact(value, name) for value in elements], array.shape
 
 
 def _listed(values: Any) -> Any:
@@ -103,7 +122,7 @@ def spelled(value: Fraction) -> str:
         fives, rest = fives + 1, rest // 5
     places = max(twos, fives)
     scaled = value.numerator * 10**places // value.denominator if rest == 1 and places < 400 else None
-    if scaled is None or len(str(abs(scaled))) > 40:
+    if scaled is None or abs(scaled) >= 10**40:
         return str(value)
     sign, digits = int(scaled < 0), tuple(int(digit) for digit in str(abs(scaled)))
     return str(Decimal((sign, digits, -places)))

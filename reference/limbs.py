@@ -62,11 +62,24 @@ def rounded(mantissa: int, exponent: int, bits: int, min_exponent: int | None = 
 
 
 def _binary64(mantissa: int, exponent: int) -> float:
-    return math.ldexp(*rounded(mantissa, exponent, BINARY64_BITS, BINARY64_MIN_EXPONENT))
+    try:
+        return math.ldexp(*rounded(mantissa, exponent, BINARY64_BITS, BINARY64_MIN_EXPONENT))
+    except OverflowError:
+        return math.copysign(math.inf, mantissa)
+
+
+def _beyond_range() -> OverflowError:
+    return OverflowError(
+        "the value is beyond the range of a double, about 1.8e308; its decimal digits can be asked for instead."
+    )
 
 
 def limbs(bounds: Interval | None, count: int) -> tuple[float, ...] | None:
-    """Return the ``count`` binary64 limbs shared by every point of the interval, or None where they differ."""
+    """Return the ``count`` binary64 limbs shared by every point of the interval, or None where they differ.
+
+    Raises:
+        OverflowError: every point of the interval is beyond the range of binary64.
+    """
     if bounds is None:
         return None
     low, high, exponent = bounds
@@ -75,6 +88,8 @@ def limbs(bounds: Interval | None, count: int) -> tuple[float, ...] | None:
         value = _binary64(low, exponent)
         if value != _binary64(high, exponent):
             return None
+        if math.isinf(value):
+            raise _beyond_range()
         found.append(value + 0.0)
         numerator, denominator = value.as_integer_ratio()
         value_exponent = 1 - denominator.bit_length()
@@ -86,10 +101,17 @@ def limbs(bounds: Interval | None, count: int) -> tuple[float, ...] | None:
 
 
 def exact_limbs(value: Fraction, count: int) -> tuple[float, ...]:
-    """Return the limbs of an exact rational."""
+    """Return the limbs of an exact rational.
+
+    Raises:
+        OverflowError: the value is beyond the range of binary64.
+    """
     found: list[float] = []
     for _ in range(count):
-        found.append(float(value))
+        try:
+            found.append(float(value))
+        except OverflowError:
+            raise _beyond_range() from None
         value -= Fraction(found[-1])
     return tuple(found)
 

@@ -124,7 +124,7 @@ class Problem:
         Raises:
             KeyError: there is none.
         """
-        return next(row for row in self.rows if row.name == name)
+        return {row.name: row for row in self.rows}[name]
 
     def certified(self, row: str, argument: Any = None, component: int = 0) -> Certified:
         """One number of a row as a proven scalar."""
