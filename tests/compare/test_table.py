@@ -1,0 +1,158 @@
+"""Tables: what they say, that they fit, and that a program can read them."""
+
+from __future__ import annotations
+
+import csv
+import dataclasses
+import io
+import json
+import math
+import re
+
+import pytest
+from made_study import METHODS, made_study
+
+from compare import grid, machine, table
+from compare.grid import Column, Grid, Section
+
+STUDY = made_study()
+
+
+def _strict_json(text: str) -> dict:
+    def refuse(token: str) -> None:
+        raise AssertionError(token)
+
+    return json.loads(text, parse_constant=refuse)
+
+
+@pytest.mark.parametrize("width", [80, 100, 120])
+def test_text_fits_the_width_of_the_terminal(width):
+    lines = table.render(STUDY, "text", width).splitlines()
+    titles = ("Error against", "Order,", "Energy")
+    assert max(len(line) for line in lines if not line.startswith(titles)) <= width
+
+
+def test_every_method_heads_two_columns_of_errors_once():
+    sections = {section.name: section for section in table.sections(STUDY, 100)}
+    errors = sections["error-vs-n-theta0-1-0-rad"]
+    groups = [column.group for part in errors.grids for column in part.columns if column.group]
+    assert sorted(groups) == sorted([*METHODS, *METHODS])
+
+
+def test_methods_of_one_order_stand_side_by_side():
+    grids = next(table.sections(STUDY, 100)).grids
+    assert [dict.fromkeys(c.group for c in part.columns if c.group) for part in grids] == [
+        dict.fromkeys(["euler", "symplectic_euler", "symplectic_euler_adjoint"]),
+        dict.fromkeys(["midpoint", "heun", "verlet", "position_verlet", "implicit_midpoint"]),
+        dict.fromkeys(["ruth3", "rk4", "yoshida4", "suzuki4"]),
+    ]
+
+
+def test_text_shows_three_digits_and_the_local_order():
+    text = table.render(made_study(methods=("verlet",)))
+    cell = made_study(methods=("verlet",)).error_vs_n[1]
+    assert re.search(rf"^ *256  3\.91e-02  {cell.max_error:.2e} 2\.00$", text, re.MULTILINE)
+
+
+def test_a_cell_at_the_floor_is_marked_and_the_mark_explained():
+    text = table.render(made_study(methods=("suzuki4",)))
+    assert re.search(r"^1048576 .* \*$", text, re.MULTILINE)
+    assert "* means rounding, not order" in text
+    assert "*" not in table.render(made_study(methods=("euler",))).partition("Error against")[2]
+
+
+def test_a_method_with_too_few_cells_has_no_fitted_order():
+    text = table.render(made_study(methods=("suzuki4", "rk4")))
+    assert re.search(r"^suzuki4 +4 +- +2  -$", text, re.MULTILINE)
+    assert re.search(r"^rk4 +4  3\.9987 ± 0\.0021 +7  256 to 16384$", text, re.MULTILINE)
+
+
+def test_each_amplitude_has_its_own_tables():
+    text = table.render(made_study(theta0=(1.0, 2.5)))
+    assert text.count("Error against N, theta0 = 2.5 rad") == 1
+    assert text.count("Energy drift, theta0 = 1.0 rad") == 1
+
+
+def test_numbers_that_are_not_finite_print_as_words():
+    row = next(line for line in table.render(made_study(methods=("euler",))).splitlines() if " 7.81e-02 " in line)
+    assert row.split() == ["128", "7.81e-02", "nan", "-"]
+
+
+def test_the_header_says_problem_reference_and_engine():
+    head = table.render(STUDY).partition("Error against")[0]
+    for fact in ("g = 9.81 m/s^2", "theta0 = 1.0 rad", "balls, mpmath, heyoka", "float64"):
+        assert fact in head
+
+
+def test_json_has_the_promised_keys_and_every_bit():
+    found = _strict_json(table.render(STUDY, "json"))
+    assert list(found) == ["problem", "parameters", "reference", "engine", "tables"]
+    assert list(found["tables"]) == ["error_vs_n", "order", "energy_drift"]
+    for name, keys in machine.COLUMNS.items():
+        records = getattr(STUDY, name)
+        assert len(found["tables"][name]) == len(records)
+        for row, record in zip(found["tables"][name], records, strict=True):
+            assert list(row) == list(keys)
+            for key, value in row.items():
+                expected = getattr(record, key)
+                if isinstance(expected, float) and not math.isfinite(expected):
+                    assert value is None
+                else:
+                    assert value == (list(expected) if isinstance(expected, tuple) else expected)
+
+
+def test_json_is_empty_lists_where_nothing_was_found():
+    empty = dataclasses.replace(STUDY, error_vs_n=(), order=(), energy_drift=())
+    assert _strict_json(table.render(empty, "json"))["tables"] == {"error_vs_n": [], "order": [], "energy_drift": []}
+
+
+def test_csv_blocks_each_have_a_header_and_full_precision():
+    blocks = table.render(STUDY, "csv").split("\n\n")
+    assert [block.partition(",")[0] for block in blocks] == ["table"] * 3
+    for name, block in zip(machine.COLUMNS, blocks, strict=True):
+        rows = list(csv.DictReader(io.StringIO(block)))
+        assert {row["table"] for row in rows} == {name}
+        assert len(rows) == len(getattr(STUDY, name))
+    errors = list(csv.DictReader(io.StringIO(blocks[0])))
+    assert errors[0]["max_error"] == ""
+    assert [float(row["max_error"]) for row in errors[1:]] == [cell.max_error for cell in STUDY.error_vs_n[1:]]
+    assert {row["floor"] for row in errors} == {"true", "false"}
+
+
+def test_csv_files_are_one_a_table_and_the_others_one_in_all():
+    assert list(table.files(STUDY, "csv")) == [f"pendulum-{name}.csv" for name in machine.COLUMNS]
+    for form, name in (("text", "txt"), ("markdown", "md"), ("latex", "tex"), ("json", "json")):
+        assert table.files(STUDY, form) == {f"pendulum.{name}": table.render(STUDY, form).encode()}
+
+
+def test_markdown_rows_have_as_many_cells_as_their_header():
+    tables = re.findall(r"(?:^\|.*\n)+", table.render(STUDY, "markdown"), re.MULTILINE)
+    assert len(tables) >= 4
+    for found in tables:
+        counts = {len(re.findall(r"(?<!\\)\|", line)) for line in found.splitlines()}
+        assert len(counts) == 1
+
+
+def test_latex_tabulars_are_balanced_and_escaped():
+    source = table.render(made_study(theta0=(1.0, 2.0)), "latex")
+    body = "\n".join(line for line in source.splitlines() if not line.startswith("%"))
+    assert not re.search(r"(?<![\\])_", body)
+    assert body.count("$") % 2 == 0
+    for name in ("table", "tabular"):
+        assert body.count(rf"\begin{{{name}}}") == body.count(rf"\end{{{name}}}")
+    labels = re.findall(r"\\label\{(.*?)\}", body)
+    assert len(labels) == len(set(labels))
+    for spec, rows in re.findall(r"\\begin\{tabular\}\{(\w+)\}(.*?)\\end\{tabular\}", body, re.DOTALL):
+        data = re.findall(r"^(.*) \\\\$", rows.partition(r"\midrule")[2], re.MULTILINE)
+        assert data
+        assert {row.count("&") + 1 for row in data} == {len(spec)}
+
+
+def test_latex_sets_powers_of_ten():
+    section = Section("a", "t", (Grid((Column("x"),), (("-1.25e-05",), ("nan",))),))
+    assert r"$-1.25\times10^{-5}$ \\" in grid.latex(section)
+
+
+def test_an_unknown_format_is_refused():
+    with pytest.raises(ValueError, match="'yaml' is not one of text, markdown"):
+        table.render(STUDY, "yaml")
