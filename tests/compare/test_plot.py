@@ -1,0 +1,106 @@
+"""Figures: all are drawn, alike every time, whatever the numbers."""
+
+from __future__ import annotations
+
+import dataclasses
+import itertools
+import math
+import xml.etree.ElementTree as ET
+
+import matplotlib as mpl
+import numpy as np
+import pytest
+from made_study import METHODS, made_study
+
+from compare import plot
+from compare.ink import inks, spread, style
+
+FEW = ("euler", "verlet", "suzuki4")
+NAMES = ("error-vs-n", "work-precision", "energy-drift", "phase-portrait")
+
+
+@pytest.fixture(scope="module")
+def drawn():
+    return plot.files(made_study(methods=FEW))
+
+
+def test_every_figure_is_a_png_and_an_svg(drawn):
+    assert sorted(drawn) == sorted(f"pendulum-{name}.{suffix}" for name in NAMES for suffix in ("png", "svg"))
+    for name, image in drawn.items():
+        if name.endswith("png"):
+            assert image.startswith(b"\x89PNG")
+        else:
+            assert ET.fromstring(image).tag.endswith("svg")  # noqa: S314 - made here
+
+
+def test_figures_are_the_same_bytes_every_time(drawn):
+    assert plot.files(made_study(methods=FEW)) == drawn
+    assert not any(b"<dc:date>" in image for image in drawn.values())
+
+
+def test_several_amplitudes_have_their_own_figures():
+    with style():
+        names = [name for name, _ in plot.figures(made_study(theta0=(1.0, 2.5), methods=("verlet",)))]
+    assert len(set(names)) == 8
+    assert "pendulum-phase-portrait-theta0-2.5" in names
+
+
+def test_error_figure_labels_axes_methods_and_orders():
+    with style():
+        figure = plot.error_figure(made_study(methods=FEW), 1.0)
+    axes = figure.axes[0]
+    texts = {text.get_text() for text in axes.texts}
+    assert {"euler", "verlet", "suzuki4", "order 1", "order 2", "order 4", "hollow grey: rounding, not order"} <= texts
+    assert axes.get_xscale() == axes.get_yscale() == "log"
+    assert "[rad]" in axes.get_ylabel()
+    assert "[s]" in figure.axes[1].get_xlabel()
+
+
+@pytest.mark.parametrize("order", [1, 2, 4])
+def test_reference_slopes_have_the_slope_of_their_order(order):
+    with style():
+        axes = plot.error_figure(made_study(methods=FEW), 1.0).axes[0]
+    slopes = []
+    for line in axes.lines:
+        if line.get_transform() == axes.transData and len(line.get_xdata()) == 2:
+            (x0, x1), (y0, y1) = line.get_data()
+            slopes.append(math.log(y1 / y0) / math.log(x1 / x0))
+    assert min(abs(slope + order) for slope in slopes) < 1e-9
+
+
+def test_work_figure_counts_evaluations():
+    with style():
+        axes = plot.work_figure(made_study(methods=("rk4",)), 1.0).axes[0]
+    assert max(axes.lines[0].get_xdata()) == 4 * 2**20
+
+
+def test_numbers_that_a_logarithm_cannot_show_are_left_out():
+    study = made_study(methods=("euler",))
+    odd = (0.0, math.inf, math.nan)
+    cells = [dataclasses.replace(study.error_vs_n[i], max_error=error) for i, error in enumerate(odd)]
+    trace = dataclasses.replace(study.traces[0], drift=np.full(401, math.nan))
+    for kept in ((), study.error_vs_n[3:4], study.error_vs_n[3:]):
+        sparse = dataclasses.replace(study, error_vs_n=(*cells, *kept), traces=(trace,))
+        assert len(plot.files(sparse)) == 8
+
+
+def test_each_method_has_its_own_ink():
+    ink = inks(list(METHODS))
+    assert len(set(ink.values())) == len(METHODS)
+    for one, other in itertools.combinations(ink.values(), 2):
+        assert one.marker != other.marker
+        assert one.colour != other.colour or one.dashes != other.dashes
+
+
+def test_the_users_settings_are_left_alone():
+    before = dict(mpl.rcParams)
+    plot.files(made_study(methods=("verlet",)))
+    assert dict(mpl.rcParams) == before
+
+
+def test_labels_are_spread_in_order_and_near_their_curves():
+    assert spread([0.1, 0.5, 0.9], 0.05) == [0.1, 0.5, 0.9]
+    crowded = spread([0.5, 0.5, 0.5], 0.1)
+    assert crowded == pytest.approx([0.4, 0.5, 0.6])
+    assert spread([-1.0, 2.0], 0.1) == [0.0, 1.0]
+    assert spread([], 0.1) == []
