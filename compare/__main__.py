@@ -1,0 +1,128 @@
+"""The command line: `python -m compare pendulum` prints a study's tables; `python -m compare list` the methods.
+
+The tables go to stdout, whatever the other options are, so that they can be piped.
+`--out DIR` writes the same tables into a folder as well, `--plots` the figures; what was written is said on stderr.
+Exit codes: 0, 2 for a mistake of the user's or a disk that cannot be written, 130 when interrupted.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import shutil
+import sys
+from typing import TYPE_CHECKING
+
+from compare.arguments import Request, parse
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator, Sequence
+
+    from compare.output import Folder
+    from compare.records import Study
+
+__all__ = ["main"]
+
+DEFAULT_FOLDER = "horologium-{problem}"
+
+
+def main(words: Sequence[str] | None = None) -> int:
+    """Run one command line and return its exit code."""
+    try:
+        request = parse(sys.argv[1:] if words is None else words)
+        _print(_listing(request.form) if request.command == "list" else _pendulum(request))
+    except BrokenPipeError:
+        _silence_stdout()
+        return 141
+    except KeyboardInterrupt:
+        return 130
+    except (ValueError, OSError) as error:
+        print(f"error: {error}", file=sys.stderr)
+        return 2
+    return 0
+
+
+def _pendulum(request: Request) -> str:
+    """Run the study, write what is to be written, and return the tables."""
+    from compare import table
+
+    out = request.out
+    if out is None and request.plots:
+        out = DEFAULT_FOLDER.format(problem=request.command)
+    width = min(max(shutil.get_terminal_size((100, 24)).columns, 80), 120)
+    with contextlib.ExitStack() as stack:
+        results = None
+        if out is not None:
+            from compare.output import folder
+
+            results = stack.enter_context(folder(out))
+        with _progress(request.quiet) as progress:
+            study = _study(request, progress)
+            if results is not None:
+                _write(study, request, results, width, progress)
+    if results is not None and not request.quiet:
+        print(f"wrote {', '.join(results.names)} into {results.target}", file=sys.stderr)
+    return table.render(study, request.form, width)
+
+
+def _study(request: Request, progress: Callable[[str], None] | None) -> Study:
+    from compare.studies import pendulum
+
+    return pendulum.study(**request.options, traces=request.plots, progress=progress)
+
+
+def _write(study: Study, request: Request, results: Folder, width: int, progress: Callable[[str], None] | None) -> None:
+    from compare import table
+
+    results.write(table.files(study, request.form, width))
+    if request.plots:
+        from compare import plot
+
+        if progress is not None:
+            progress("drawing")
+        results.write(plot.files(study))
+
+
+def _listing(form: str) -> str:
+    from compare import listing
+    from compare.methods import METHODS
+
+    return listing.render(METHODS, form)
+
+
+@contextlib.contextmanager
+def _progress(quiet: bool) -> Iterator[Callable[[str], None] | None]:
+    """A line on the terminal that says what is being done, or nothing where there is no terminal."""
+    if quiet or not sys.stderr.isatty():
+        yield None
+        return
+    from rich.console import Console
+
+    with Console(stderr=True).status("starting") as status:
+        yield status.update
+
+
+def _print(text: str) -> None:
+    """Print the tables, in UTF-8 or in what the terminal can show.
+
+    Raises:
+        OSError: stdout cannot be written.
+    """
+    encoding = sys.stdout.encoding or "utf-8"
+    try:
+        sys.stdout.write(text.encode(encoding, "replace").decode(encoding))
+        sys.stdout.flush()
+    except BrokenPipeError:
+        raise
+    except OSError as error:
+        _silence_stdout()
+        raise OSError(f"cannot write to standard output: {(error.strerror or str(error)).lower()}.") from error
+
+
+def _silence_stdout() -> None:
+    """Let the interpreter's last flush go nowhere."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+
+
+if __name__ == "__main__":
+    sys.exit(main())

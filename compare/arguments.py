@@ -1,0 +1,189 @@
+"""The command line's words as values: what was asked for, or one sentence on what is wrong with it."""
+
+from __future__ import annotations
+
+import argparse
+import difflib
+import re
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, NoReturn
+
+from compare.table import FORMATS
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
+
+__all__ = ["COMMANDS", "Request", "parse"]
+
+COMMANDS = {
+    "pendulum": "score integrators on the pendulum: error against N, observed order, energy drift",
+    "list": "list the methods: family, order, stages, source",
+}
+
+_OPTIONS: dict[str, tuple[str | None, str]] = {
+    "--theta0": ("A,B", "amplitudes in rad, between 0 and pi (default 1); may repeat"),
+    "--g": ("G", "gravity in m/s^2 (default 9.81)"),
+    "--length": ("L", "length in m (default 1)"),
+    "--t-end": ("T", "end of the march in s (default 10)"),
+    "--methods": ("A,B", "methods by name (default all; see 'list'); may repeat"),
+    "--n": ("N,M", "numbers of steps (default 128, 256, ... 1048576); may repeat"),
+    "--precision": ("P", "float32, float64 (default), longdouble, float128 or mp:BITS"),
+    "--format": ("FORM", f"{', '.join(FORMATS)} (default text)"),
+    "--out": ("DIR", "also write the tables, in the chosen format, into this folder"),
+    "--plots": (None, "also draw PNG and SVG figures (into DIR, or ./horologium-pendulum)"),
+    "--quiet": (None, "nothing on stderr but errors; the tables are printed as ever"),
+}
+_ACCEPTED = {"pendulum": tuple(_OPTIONS), "list": ("--format",)}
+_LISTS = ("--theta0", "--methods", "--n")
+_EPILOG = "A number is read as binary64, as in a program.  A mistake is one sentence on stderr and exit code 2."
+_SIGNED = re.compile(r"-(\d|\.\d|inf|nan)", re.IGNORECASE)
+
+
+@dataclass(frozen=True)
+class Request:
+    """What a command line asks for.
+
+    Attributes:
+        command: one of COMMANDS.
+        options: arguments of the study, only those that were given.
+        form: one of the table formats.
+        out: a folder for the results, or None.
+        plots: whether figures are drawn.
+        quiet: whether stderr stays silent but for errors.
+    """
+
+    command: str
+    options: dict[str, Any]
+    form: str
+    out: str | None
+    plots: bool
+    quiet: bool
+
+
+class _Parser(argparse.ArgumentParser):
+    """Raises what it finds wrong, as a sentence."""
+
+    def error(self, message: str) -> NoReturn:
+        raise ValueError(re.sub(r"^argument (\S+): ", r"\1: ", message) + ".")
+
+
+def parse(words: Sequence[str]) -> Request:
+    """Read a command line.
+
+    Raises:
+        ValueError: it cannot be read; the sentence says what is accepted.
+    """
+    if not words:
+        raise ValueError(f"no command is given; {_alternatives(tuple(COMMANDS))} is accepted.")
+    if words[0] not in {"-h", "--help"}:
+        _known("command", words[0], tuple(COMMANDS))
+    parser = _parser()
+    known, unknown = parser.parse_known_args(_joined(words))
+    if unknown:
+        _known_option(unknown[0], _ACCEPTED[known.command])
+    return Request(
+        command=known.command,
+        options=_study_options(known) if known.command == "pendulum" else {},
+        form=_known("format", known.format or "text", FORMATS),
+        out=getattr(known, "out", None),
+        plots=getattr(known, "plots", False),
+        quiet=getattr(known, "quiet", False),
+    )
+
+
+def _parser() -> _Parser:
+    parser = _Parser(prog="python -m compare", description="Score integrators.", epilog=_EPILOG, allow_abbrev=False)
+    commands = parser.add_subparsers(dest="command", metavar="COMMAND")
+    for command, text in COMMANDS.items():
+        one = commands.add_parser(command, help=text, description=text, epilog=_EPILOG, allow_abbrev=False)
+        for option in _ACCEPTED[command]:
+            _add(one, option)
+    return parser
+
+
+def _add(parser: argparse.ArgumentParser, option: str) -> None:
+    metavar, text = _OPTIONS[option]
+    if metavar is None:
+        parser.add_argument(option, action="store_true", help=text)
+    else:
+        parser.add_argument(option, action="append" if option in _LISTS else "store", metavar=metavar, help=text)
+
+
+def _joined(words: Sequence[str]) -> list[str]:
+    """The words with a value such as -1,2 or -inf tied to its option, lest it be read as an option itself."""
+    tied: list[str] = []
+    for word in words:
+        if _SIGNED.match(word) and tied and tied[-1].startswith("--") and "=" not in tied[-1]:
+            tied[-1] += f"={word}"
+        else:
+            tied.append(word)
+    return tied
+
+
+def _study_options(known: argparse.Namespace) -> dict[str, Any]:
+    given: dict[str, Any] = {
+        name: _several(name, getattr(known, name), read)
+        for name, read in (("theta0", _number), ("methods", _name), ("n", _whole))
+        if getattr(known, name) is not None
+    }
+    for name in ("g", "length", "t_end"):
+        if getattr(known, name) is not None:
+            given[name] = _number(getattr(known, name), name.replace("_", "-"))
+    if known.precision is not None:
+        given["precision"] = known.precision
+    return given
+
+
+def _several(name: str, words: Sequence[str], read: Callable[[str, str], Any]) -> tuple[Any, ...]:
+    """Comma-separated values of an option that may repeat; each once."""
+    pieces = [piece.strip() for word in words for piece in word.split(",")]
+    if not all(pieces):
+        raise ValueError(f"--{name} has an empty value; values separated by commas are accepted, such as 'A,B'.")
+    values = tuple(read(piece, name) for piece in pieces)
+    for place, value in enumerate(values):
+        if value in values[:place]:
+            raise ValueError(f"--{name} has {pieces[place]} twice; each value is accepted once.")
+    return values
+
+
+def _name(piece: str, _: str) -> str:
+    return piece
+
+
+def _number(piece: str, name: str) -> float:
+    try:
+        return float(piece)
+    except ValueError as error:
+        raise ValueError(f"--{name} {_short(piece)!r} is not a number; one such as 1 or 2.5e-3 is accepted.") from error
+
+
+def _whole(piece: str, name: str) -> int:
+    try:
+        value = int(piece)
+    except ValueError as error:
+        raise ValueError(f"--{name} {_short(piece)!r} is not a whole number; one such as 128 is accepted.") from error
+    if value < 1:
+        raise ValueError(f"--{name} {piece} is not a number of steps; 1 or more is accepted.")
+    return value
+
+
+def _known(kind: str, word: str, names: Sequence[str]) -> str:
+    if word in names:
+        return word
+    near = difflib.get_close_matches(word, names, 1, 0.4)
+    hint = f", perhaps {near[0]}" if near else ""
+    raise ValueError(f"{kind} {_short(word)!r} is unknown{hint}; {_alternatives(names)} is accepted.")
+
+
+def _known_option(word: str, names: Sequence[str]) -> None:
+    if not word.startswith("-"):
+        raise ValueError(f"the argument {word!r} is one too many; options such as {names[0]} are accepted.")
+    _known("option", word.partition("=")[0], names)
+
+
+def _short(word: str) -> str:
+    return word if len(word) <= 40 else f"{word[:36]}..."
+
+
+def _alternatives(names: Sequence[str]) -> str:
+    return " or ".join(filter(None, (", ".join(names[:-1]), names[-1])))
