@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 
 __all__ = ["Lane", "March", "StartInvariant", "iterations_for", "march", "sample_steps"]
 
-LONG_BLOCKS, SHORT_BLOCK = (64, 32, 16), 16
+LONG_BLOCKS, SHORT_BLOCK = (64, 32, 16), 8
 LONG_MARCH = 8192
 BLOCK_EVALUATIONS, MIN_BLOCK = 256, 8
 MAX_CONTRACTION = 0.5
@@ -159,25 +159,21 @@ class _Group:
     def run(self) -> list[March]:
         """March to the end of every lane."""
         lanes, parameters = self._start()
-        events = self._events()
         rows = len(lanes)
         spare = self.fmt.zeros((self.block.out_rows(rows), lanes.shape[1]))
         out = self.fmt.zeros(spare.shape)
+        events = self._events()
         taken = 0
         while lanes.shape[1]:
             self.block(lanes, parameters, out)
-            per_block = out.reshape(-1, rows, lanes.shape[1])
-            if taken in events:
-                for lane, sample, offset in events[taken]:
-                    self.states[lane][sample] = per_block[offset, : self.dimension, lane]
-            self._keep_maxima(per_block, taken)
             taken += self.steps
-            lanes = per_block[-1]
-            out, spare = spare, out
-            width = self._width(taken)
-            if width < lanes.shape[1]:
-                lanes, parameters = (np.ascontiguousarray(array[:, :width]) for array in (lanes, parameters))
-                out, spare = (np.ascontiguousarray(array[:, :width]) for array in (out, spare))
+            lanes, out, spare = out[-rows:], spare, out
+            if self.every or taken in events:
+                self._keep(spare.reshape(-1, rows, lanes.shape[1]), taken, events.get(taken, ()))
+                width = self._width(taken)
+                if width < lanes.shape[1]:
+                    shrunk = (np.ascontiguousarray(array[:, :width]) for array in (lanes, parameters, out, spare))
+                    lanes, parameters, out, spare = shrunk
         return [self._result(i) for i in range(len(self.lanes))]
 
     def _start(self) -> tuple[np.ndarray, np.ndarray]:
@@ -195,26 +191,27 @@ class _Group:
         return np.stack([*starts, zero, zero]), np.stack(parameters)
 
     def _events(self) -> dict[int, list[tuple[int, int, int]]]:
-        """First step of a block -> (lane, sample, offset in the block's output) of the states to keep."""
+        """Steps taken at the end of a block -> (lane, sample, index in the block's output) of the states to keep."""
         events: dict[int, list[tuple[int, int, int]]] = defaultdict(list)
         for i, lane in enumerate(self.lanes):
             for sample, step in enumerate(lane.samples):
-                offset = (step - 1) % self.steps
-                events[step - 1 - offset].append((i, sample, offset if self.every else 0))
+                short = -step % self.steps
+                events[step + short].append((i, sample, -1 - short))
         return events
 
-    def _keep_maxima(self, per_block: np.ndarray, taken: int) -> None:
-        """Note the largest drift and change: of every step where they are listed, else when a lane ends."""
-        count = min(len(self.lanes), per_block.shape[2])
-        left = self.ends[:count] - taken
+    def _keep(self, outputs: np.ndarray, taken: int, events: Sequence[tuple[int, int, int]]) -> None:
+        """Keep the wanted states of a block that ended at step ``taken``, and the largest drift and change."""
+        for lane, sample, index in events:
+            self.states[lane][sample] = outputs[index, : self.dimension, lane]
+        count = min(len(self.lanes), outputs.shape[2])
         if self.every:
-            steps = np.arange(self.steps)[:, None, None]
-            values = per_block[:, self.dimension :, :count].astype(np.float64)
-            values = np.where(steps < left, values, 0.0).max(axis=0)
-            self.maxima[:count] = np.maximum(self.maxima[:count], values.T)
-        elif np.any(left == self.steps):
-            ended = np.flatnonzero(left == self.steps)
-            self.maxima[ended] = per_block[-1, self.dimension :, ended].astype(np.float64)
+            values = outputs[:, self.dimension :, :count].astype(np.float64)
+            step = np.arange(taken - self.steps, taken)[:, None, None]
+            largest = np.where(step < self.ends[:count], values, 0.0).max(axis=0)
+            self.maxima[:count] = np.maximum(self.maxima[:count], largest.T)
+        else:
+            ended = np.flatnonzero(self.ends[:count] == taken)
+            self.maxima[ended] = outputs[-1, self.dimension :, ended].astype(np.float64)
 
     def _width(self, taken: int) -> int:
         """Lanes still marching, padded to whole batches."""

@@ -103,38 +103,44 @@ def _size(values: Sequence[Any]) -> Any:
 
 
 def compile_block(
-    method: Method, problem: Problem, fmt: Precision, steps: int, record: Record, batch: int, iterations: int
+    method: Method,
+    problem: Problem,
+    fmt: Precision,
+    steps: int,
+    record: Record,
+    batch: int,
+    iterations: int = 0,
+    *,
+    drift: bool = True,
 ) -> Block:
-    """Trace ``steps`` steps of a method and compile them; ``iterations`` is for implicit methods.
+    """Trace ``steps`` steps of a method and compile them.
+
+    ``iterations`` is for implicit methods; without ``drift`` the invariant is not followed and its row stays as it was.
 
     Raises:
         TraceError: the compiled block does not agree with the plain steps at random points.
     """
-    names = list(problem.parameters)
-    y = (
-        tuple(hy.make_vars(*problem.state_names))
-        if len(problem.state_names) > 1
-        else (hy.make_vars(*problem.state_names),)
-    )
-    drift, change = hy.make_vars("drift", "change")
-    symbols = {name: hy.par[i + 2] for i, name in enumerate(names)}
+    y = _variables(problem.state_names)
+    symbols = {name: hy.par[i + 2] for i, name in enumerate(problem.parameters)}
     system = BoundSystem(problem, Heyoka(fmt.number), symbols, fmt)
-    outputs: list[Any] = []
-    state, largest_drift, largest_change = y, drift, change
+    maxima = _variables(("drift", "change"))
+    every: list[Any] = []
+    state, largest = y, maxima
     for _ in range(steps):
         state, changes = method.step(system, state, hy.par[0], iterations)
-        off = _size([system.invariant(state) - hy.par[1]])
+        off = _size([system.invariant(state) - hy.par[1]]) if drift else maxima[0]
         moved = _size(changes) if changes else hy.expression(0.0)
-        if record == "every":
-            outputs += [*state, off, moved]
-        else:
-            largest_drift, largest_change = _greater(off, largest_drift), _greater(moved, largest_change)
-    if record == "last":
-        outputs = [*state, largest_drift, largest_change]
-    function = hy.cfunc(outputs, vars=[*y, drift, change], batch_size=batch, **fmt.compiler_options)
+        every += [*state, off, moved]
+        largest = (_greater(off, largest[0]) if drift else off), _greater(moved, largest[1])
+    outputs = every if record == "every" else [*state, *largest]
+    function = hy.cfunc(outputs, vars=[*y, *maxima], batch_size=batch, **fmt.compiler_options)
     block = Block(function, steps, batch, record)
     _trust(block, method, problem, fmt, iterations)
     return block
+
+
+def _variables(names: Sequence[str]) -> tuple[Any, ...]:
+    return tuple(hy.expression(name) for name in names)
 
 
 def plain_block(

@@ -68,7 +68,7 @@ def fivefold_jump(radical: Coefficient) -> tuple[Coefficient, ...]:
 
 
 YOSHIDA4 = compose(
-    VERLET, triple_jump(root(2, 3)), name="yoshida4", order=4, source="Yoshida 1990, Phys. Lett. A 150, 262",
+    POSITION_VERLET, triple_jump(root(2, 3)), name="yoshida4", order=4, source="Yoshida 1990, Phys. Lett. A 150, 262",
     aliases=("forest_ruth", "candy_rozmus4", "triple_jump4"),
 )  # fmt: skip
 

@@ -1,0 +1,114 @@
+"""Throughput of a march over lanes on one thread, against a scalar C loop compiled here with -O3 -march=native.
+
+Run ``python tests/benchmarks/march_against_c.py``: the two in turn, ROUNDS times; the ratio is the median of the pairs.
+Both take plain steps of the pendulum, states only; nothing is asserted.
+"""
+
+from __future__ import annotations
+
+import ctypes
+import subprocess
+import tempfile
+import time
+from pathlib import Path
+from statistics import median
+
+import numpy as np
+
+from compare.method import Method
+from compare.methods import find
+from compare.precision import precision
+from compare.trace import compile_block
+from reference import Pendulum
+
+C_SOURCE = r"""
+#include <math.h>
+
+void rk4(double *state, double h, double g, double l, long n) {
+    double q = state[0], v = state[1];
+    for (long i = 0; i < n; i++) {
+        double k1 = v, a1 = -(g / l) * sin(q);
+        double k2 = v + h / 2 * a1, a2 = -(g / l) * sin(q + h / 2 * k1);
+        double k3 = v + h / 2 * a2, a3 = -(g / l) * sin(q + h / 2 * k2);
+        double k4 = v + h * a3, a4 = -(g / l) * sin(q + h * k3);
+        q += h / 6 * (k1 + 2 * k2 + 2 * k3 + k4);
+        v += h / 6 * (a1 + 2 * a2 + 2 * a3 + a4);
+    }
+    state[0] = q; state[1] = v;
+}
+
+void verlet(double *state, double h, double g, double l, long n) {
+    double q = state[0], v = state[1], a = -(g / l) * sin(q);
+    for (long i = 0; i < n; i++) {
+        v += h / 2 * a;
+        q += h * v;
+        a = -(g / l) * sin(q);
+        v += h / 2 * a;
+    }
+    state[0] = q; state[1] = v;
+}
+"""
+ROUNDS = 15
+C_STEPS = 400_000
+LANES = {"rk4": 2048, "verlet": 4096}
+STEPS, BATCH = 32, 32
+LANE_STEPS = 8_000_000
+
+
+def compiled_c(folder: Path) -> ctypes.CDLL:
+    """The loops above as a shared library."""
+    source, library = folder / "loops.c", folder / "loops.so"
+    source.write_text(C_SOURCE)
+    subprocess.run(
+        ["cc", "-O3", "-march=native", "-shared", "-fPIC", "-o", str(library), str(source), "-lm"], check=True
+    )
+    return ctypes.CDLL(str(library))
+
+
+def c_nanoseconds(loop: object) -> float:
+    """Time of one step of the C loop."""
+    state = (ctypes.c_double * 2)(1.0, 0.0)
+    loop.argtypes = [ctypes.c_void_p, ctypes.c_double, ctypes.c_double, ctypes.c_double, ctypes.c_long]
+    begin = time.perf_counter()
+    loop(state, 1e-5, 9.81, 1.0, C_STEPS)
+    return (time.perf_counter() - begin) / C_STEPS * 1e9
+
+
+class Lanes:
+    """A compiled block and the arrays it works on."""
+
+    def __init__(self, method: Method) -> None:
+        fmt, problem, count = precision("float64"), Pendulum(1.0), LANES[method.name]
+        self.block = compile_block(method, problem, fmt, STEPS, "last", BATCH, 0, drift=False)
+        self.lanes = np.zeros((4, count))
+        self.lanes[0] = np.linspace(0.1, 3.0, count)
+        self.parameters = np.array([[1e-5], [0.0], [9.81], [1.0]]) * np.ones(count)
+        self.out = np.empty_like(self.lanes)
+        self.calls = LANE_STEPS // (STEPS * count)
+
+    def nanoseconds(self) -> float:
+        """Time of one step of one lane."""
+        begin = time.perf_counter()
+        for _ in range(self.calls):
+            self.block(self.lanes, self.parameters, self.out)
+        return (time.perf_counter() - begin) / (self.calls * STEPS * self.lanes.shape[1]) * 1e9
+
+
+def main() -> None:
+    with tempfile.TemporaryDirectory() as folder:
+        library = compiled_c(Path(folder))
+        print(
+            f"{'method':10s} {'C ns/step':>10s} {'lanes ns/step':>14s} {'ratio':>7s}   (median of {ROUNDS} pairs, one thread)"
+        )
+        for name in LANES:
+            lanes, loop = Lanes(find(name)), getattr(library, name)
+            lanes.nanoseconds(), c_nanoseconds(loop)
+            pairs = [(c_nanoseconds(loop), lanes.nanoseconds()) for _ in range(ROUNDS)]
+            ratio = median(c / ours for c, ours in pairs)
+            print(
+                f"{name:10s} {median(c for c, _ in pairs):10.2f} {median(ours for _, ours in pairs):14.3f} {ratio:7.1f}"
+            )
+
+
+if __name__ == "__main__":
+    main()

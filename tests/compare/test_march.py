@@ -1,0 +1,143 @@
+"""A march does what its steps do, whatever lanes it shares a block with."""
+
+from __future__ import annotations
+
+import tracemalloc
+from dataclasses import replace
+from fractions import Fraction
+from typing import TYPE_CHECKING
+
+import numpy as np
+import pytest
+
+from compare.march import Lane, iterations_for, march, sample_steps
+from compare.methods import METHODS, find
+from compare.precision import precision
+from compare.trace import plain_block
+from reference import Pendulum
+
+if TYPE_CHECKING:
+    from reference.problem import Problem
+
+FLOAT64 = precision("float64")
+PENDULUM = Pendulum(1.0)
+
+
+def lane(n: int, problem: Problem = PENDULUM, t_end: int = 10) -> Lane:
+    return Lane(problem, n, FLOAT64.round(Fraction(t_end, n)), sample_steps(n, 128))
+
+
+def plain_march(name: str, one: Lane, iterations: int = 0) -> np.ndarray:
+    """The states at the samples by NumPy alone, one lane, one step after another."""
+    h = float(one.h)
+    lanes = np.array([[float(value)] for value in one.problem.start])
+    parameters = np.array([[h], [0.0], *([float(value)] for value in one.problem.parameters.values())])
+    states = plain_block(find(name), one.problem, FLOAT64, lanes, parameters, one.n, iterations)
+    return states[np.array(one.samples) - 1, :, 0]
+
+
+@pytest.mark.parametrize("n", [1, 7, 128, 200, 1000, 4096, 8192, 9984, 8208])
+def test_samples_are_spread_to_the_very_end(n: int) -> None:
+    steps = sample_steps(n, 128)
+    assert steps[-1] == n
+    assert len(steps) == len(set(steps)) == min(n, 128)
+    assert list(steps) == sorted(steps)
+    assert max(np.diff((0, *steps))) <= max(1, 2 * n / 128)
+
+
+@pytest.mark.parametrize("n", [1, 5, 100, 1000, 9984, 8200])
+@pytest.mark.parametrize("name", ["rk4", "verlet"])
+def test_a_march_gives_the_states_of_the_plain_steps(name: str, n: int) -> None:
+    one = lane(n, t_end=2)
+    (result,) = march(find(name), [one], FLOAT64)
+    np.testing.assert_allclose(result.states, plain_march(name, one), rtol=0, atol=1e-11)
+
+
+def test_lanes_of_many_lengths_and_starts_do_not_mix() -> None:
+    lanes = [lane(n, Pendulum(theta0)) for n in (128, 16384, 300, 8192, 1) for theta0 in (0.1, 1.0, 3.0)]
+    together = march(find("yoshida4"), lanes, FLOAT64)
+    for one, result in zip(lanes, together, strict=True):
+        (alone,) = march(find("yoshida4"), [one], FLOAT64)
+        np.testing.assert_allclose(result.states, alone.states, rtol=0, atol=1e-9)
+        assert result.max_drift == pytest.approx(alone.max_drift, rel=1e-3)
+
+
+@pytest.mark.parametrize("n", [100, 8192])
+def test_the_largest_drift_is_that_of_every_step_and_no_more(n: int) -> None:
+    every = replace(lane(n), samples=tuple(range(1, n + 1)))
+    (result,) = march(find("verlet"), [lane(n)], FLOAT64)
+    states = plain_march("verlet", every)
+    above = states[:, 1] ** 2 / 2 + 2 * 9.81 * np.sin(states[:, 0] / 2) ** 2
+    assert result.max_drift == pytest.approx(np.max(np.abs(above - 2 * 9.81 * np.sin(0.5) ** 2)), rel=1e-6)
+
+
+@pytest.mark.parametrize("method", METHODS, ids=lambda method: method.name)
+def test_evaluations_are_counted_as_they_are_made(method: object) -> None:
+    """By a system that counts, kick-first splittings sharing the force between steps."""
+    one = lane(100)
+    (result,) = march(method, [one], FLOAT64)
+    iterations = iterations_for(method, PENDULUM, 0.1, 53)
+    counted = Counter()
+    y = (1.0, 0.0)
+    for _ in range(100):
+        y, _change = method.step(counted, y, 0.1, iterations)
+    shared = 99 if method.evaluations(iterations)[1] else 0
+    assert result.evaluations == counted.forces - shared
+
+
+class Counter:
+    """The pendulum in floats, counting forces."""
+
+    positions = 1
+
+    def __init__(self) -> None:
+        self.forces = 0
+
+    def number(self, value: object) -> float:
+        return float(FLOAT64.number(value))
+
+    def velocity(self, momenta: tuple[float, ...]) -> tuple[float, ...]:
+        return momenta
+
+    def force(self, positions: tuple[float, ...]) -> tuple[float, ...]:
+        self.forces += 1
+        return (-9.81 * float(np.sin(positions[0])),)
+
+    def derivative(self, y: tuple[float, ...]) -> tuple[float, ...]:
+        return y[1], *self.force(y[:1])
+
+
+def test_an_implicit_method_with_too_large_a_step_gives_no_number() -> None:
+    (coarse, fine) = march(find("implicit_midpoint"), [lane(10), lane(200)], FLOAT64)
+    assert np.all(np.isnan(coarse.states))
+    assert np.isnan(coarse.max_drift)
+    assert np.all(np.isfinite(fine.states))
+
+
+def test_an_implicit_step_solves_its_equation_to_rounding() -> None:
+    one = lane(100)
+    (result,) = march(find("implicit_midpoint"), [one], FLOAT64)
+    before, after = np.array([1.0, 0.0]), result.states[0]
+    middle = (before + after) / 2
+    expected = before + float(one.h) * np.array([middle[1], -9.81 * np.sin(middle[0])])
+    np.testing.assert_allclose(after, expected, rtol=0, atol=1e-15)
+
+
+def test_a_splitting_needs_a_separable_problem() -> None:
+    class Whole(Pendulum):
+        positions = 0
+
+    with pytest.raises(ValueError, match="verlet splits kicks from drifts, and pendulum is not separable"):
+        march(find("verlet"), [lane(100, Whole(1.0))], FLOAT64)
+
+
+def test_memory_does_not_grow_with_n() -> None:
+    def peak(n: int) -> int:
+        march(find("verlet"), [lane(n)], FLOAT64)
+        tracemalloc.start()
+        march(find("verlet"), [lane(n)], FLOAT64)
+        _, largest = tracemalloc.get_traced_memory()
+        tracemalloc.stop()
+        return largest
+
+    assert peak(2**20) < 1.2 * peak(2**13) + 20_000

@@ -1,0 +1,72 @@
+"""Number formats round exact numbers correctly."""
+
+from __future__ import annotations
+
+import math
+from fractions import Fraction
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from compare.algebraic import root
+from compare.precision import FORMATS, Precision, precision
+
+every_format = pytest.mark.parametrize("fmt", [*FORMATS, precision("mp:200")], ids=lambda fmt: fmt.name)
+rationals = st.fractions(min_value=-1000, max_value=1000, max_denominator=10**9)
+
+
+@every_format
+@given(rationals)
+def test_rounding_is_to_the_nearest(fmt: Precision, value: Fraction) -> None:
+    rounded = fmt.round(value)
+    if value:
+        exponent = math.frexp(float(value))[1]
+        assert abs(rounded - value) <= Fraction(2) ** (exponent + 1 - fmt.bits) / 2
+    mantissa = rounded.numerator.bit_length() - (rounded.numerator & -rounded.numerator).bit_length() + 1
+    assert mantissa <= fmt.bits or value == 0
+
+
+@given(rationals)
+def test_float64_and_float32_agree_with_python_and_numpy(value: Fraction) -> None:
+    assert precision("float64").number(value) == float(value)
+    assert precision("float32").number(value) == np.float32(precision("longdouble").number(value))
+
+
+@every_format
+def test_a_number_of_a_format_is_the_rational_it_says(fmt: Precision) -> None:
+    third = fmt.number(Fraction(1, 3))
+    exact = fmt.round(Fraction(1, 3))
+    assert third * fmt.number(Fraction(3)) - fmt.number(Fraction(1)) < fmt.epsilon
+    assert abs(float(third) - float(exact)) < 1e-7
+    assert fmt.number(exact) == third
+
+
+@every_format
+def test_an_algebraic_coefficient_is_rounded_once(fmt: Precision) -> None:
+    found = fmt.round(root(2, 3))
+    assert abs(found**3 - 2) < 8 * fmt.epsilon
+    assert found**3 != 2
+
+
+@every_format
+def test_differences_keep_what_the_format_holds(fmt: Precision) -> None:
+    value = fmt.round(Fraction(1, 3))
+    limbs = np.array([[float(value), float(value - Fraction(float(value))), 0.0]])
+    tail = Fraction(float(value)) + Fraction(float(value - Fraction(float(value))))
+    assert fmt.difference(fmt.array([value]), limbs)[0] == float(value - tail)
+
+
+@every_format
+def test_zeros_have_the_full_precision(fmt: Precision) -> None:
+    zeros = fmt.zeros((2, 3))
+    assert zeros.shape == (2, 3)
+    assert np.all(zeros == 0)
+    assert (zeros + fmt.array([1, 2, 3]))[1, 2] == fmt.number(Fraction(3))
+
+
+@pytest.mark.parametrize("name", ["float16", "mp:", "mp:23", "mp:5000", "mp:1e3", "double"])
+def test_an_unknown_format_is_refused(name: str) -> None:
+    with pytest.raises(ValueError, match=f"precision '{name}' is unknown"):
+        precision(name)

@@ -1,0 +1,136 @@
+"""Scores: errors at exactly n h, floors, fitted orders, drift."""
+
+from __future__ import annotations
+
+import math
+from fractions import Fraction
+
+import numpy as np
+import pytest
+from mpmath import mp
+
+from compare.methods import find
+from compare.precision import precision
+from compare.records import Cell
+from compare.score import Course, fit_order, score_method, slope_with_interval, student_95
+from reference import Pendulum
+
+FLOAT64 = precision("float64")
+RK4 = find("rk4")
+
+
+def cells(errors: list[float], floor: tuple[int, ...] = ()) -> list[Cell]:
+    return [
+        Cell("rk4", 2 ** (7 + i), 10 / 2 ** (7 + i), 1.0, error, error, None, i in floor, 0)
+        for i, error in enumerate(errors)
+    ]
+
+
+def test_the_error_is_taken_at_exactly_n_h() -> None:
+    """10/3 is no double: at 3 steps the march ends at 3 fl(10/3), not at 10."""
+    course = Course(Pendulum(1.0), 3, Fraction(10), FLOAT64)
+    assert course.times[-1] == 3 * Fraction(10 / 3)
+    assert course.times[-1] != 10
+
+
+@pytest.mark.parametrize("name", ["float32", "longdouble", "float128", "mp:200"])
+def test_h_is_rounded_to_the_format(name: str) -> None:
+    fmt = precision(name)
+    course = Course(Pendulum(1.0), 3, Fraction(10), fmt)
+    assert course.h == fmt.round(Fraction(10, 3)) != Fraction(10, 3)
+
+
+def test_the_error_of_rk4_is_that_of_an_independent_march() -> None:
+    """The same method in mpmath, against mpmath's elliptic function."""
+    ((cell,), _) = score_method(RK4, [Course(Pendulum(1.0), 128, Fraction(10), FLOAT64)], FLOAT64)
+    with mp.workdps(30):
+        q, v, h, g = mp.mpf(1), mp.mpf(0), mp.mpf(10) / 128, mp.mpf(9.81)
+        k, largest = mp.sin(mp.mpf(1) / 2), mp.mpf(0)
+        for n in range(1, 129):
+            a1, a2 = v, v - h / 2 * g * mp.sin(q)
+            f2 = -g * mp.sin(q + h / 2 * a1)
+            a3, f3 = v + h / 2 * f2, -g * mp.sin(q + h / 2 * a2)
+            a4, f4 = v + h * f3, -g * mp.sin(q + h * a3)
+            q, v = q + h / 6 * (a1 + 2 * a2 + 2 * a3 + a4), v + h / 6 * (-g * mp.sin(q) + 2 * f2 + 2 * f3 + f4)
+            exact = 2 * mp.asin(k * mp.ellipfun("cd", mp.sqrt(g) * n * h, m=k * k))
+            largest = max(largest, abs(q - exact))
+        assert cell.max_error == pytest.approx(float(largest), rel=1e-9)
+        assert cell.end_error == pytest.approx(float(abs(q - exact)), rel=1e-9)
+
+
+def test_the_floor_is_where_rounding_is() -> None:
+    """RK4 in doubles leaves the slope of its binary128 self where its cells are marked, and not before."""
+    n = [2**k for k in range(9, 19)]
+    doubles, _ = score_method(RK4, [Course(Pendulum(1.0), k, Fraction(10), FLOAT64) for k in n], FLOAT64)
+    fmt = precision("longdouble")
+    wide, _ = score_method(RK4, [Course(Pendulum(1.0), k, Fraction(10), fmt) for k in n], fmt)
+    for narrow, true in zip(doubles, wide, strict=True):
+        if not narrow.floor:
+            assert narrow.max_error == pytest.approx(true.max_error, rel=0.15)
+    assert [cell.floor for cell in doubles] == sorted(cell.floor for cell in doubles)
+    assert doubles[-1].floor
+    assert not doubles[4].floor
+
+
+def test_a_perfect_power_law_is_fitted_exactly() -> None:
+    fitted = fit_order(RK4, cells([2.0 ** (-4 * i) * 1e-3 for i in range(8)]))
+    assert fitted.fitted_order == pytest.approx(4, abs=1e-12)
+    assert fitted.cells_used == 8
+    assert fitted.n_range == (128, 16384)
+
+
+def test_floor_cells_and_the_approach_are_left_out_of_the_fit() -> None:
+    errors = [0.9, 0.5, *(2.0 ** (-4 * i) * 1e-3 for i in range(6)), 3e-14, 5e-14]
+    fitted = fit_order(RK4, cells(errors, floor=(8, 9)))
+    assert fitted.fitted_order == pytest.approx(4, abs=1e-12)
+    assert fitted.n_range == (512, 16384)
+
+
+def test_the_fit_does_not_know_what_the_method_declares() -> None:
+    fitted = fit_order(RK4, cells([2.0 ** (-2 * i) * 1e-3 for i in range(8)]))
+    assert fitted.declared_order == 4
+    assert fitted.fitted_order == pytest.approx(2)
+
+
+def test_two_cells_are_no_fit() -> None:
+    fitted = fit_order(RK4, cells([1e-3, 1e-4]))
+    assert (fitted.fitted_order, fitted.interval, fitted.cells_used, fitted.n_range) == (None, None, 0, None)
+
+
+def test_cells_that_are_not_numbers_are_left_out() -> None:
+    fitted = fit_order(RK4, cells([math.nan, math.inf, *(2.0 ** (-2 * i) * 1e-3 for i in range(5))]))
+    assert fitted.fitted_order == pytest.approx(2)
+
+
+@pytest.mark.parametrize("freedom", [1, 2, 3, 4, 7, 20, 126])
+def test_students_quantile_is_that_of_its_distribution(freedom: int) -> None:
+    x = student_95(freedom)
+    tail = mp.betainc(freedom / 2, 0.5, 0, freedom / (freedom + x * x), regularized=True)
+    assert float(tail) == pytest.approx(0.05, rel=0.01)
+
+
+def test_a_line_with_noise_has_an_interval_that_covers_its_slope() -> None:
+    random = np.random.default_rng(1)
+    covered = 0
+    x = np.arange(20.0)
+    for _ in range(400):
+        slope, half = slope_with_interval(x, 3 * x + random.normal(size=20))
+        covered += abs(slope - 3) <= half
+    assert 360 <= covered <= 396
+
+
+def test_drift_has_both_normalisations_and_eulers_grows() -> None:
+    course = Course(Pendulum(1.0), 1024, Fraction(10), FLOAT64)
+    _, (euler,) = score_method(find("euler"), [course], FLOAT64)
+    assert euler.max_drift_above_rest == pytest.approx(
+        euler.max_drift_relative * math.cos(1) / (1 - math.cos(1)), rel=1e-12
+    )
+    assert euler.slope_per_period > 100 * euler.slope_interval > 0 or euler.slope_per_period > 0.2
+
+
+def test_verlets_energy_error_stays_bounded_and_rk4s_drifts() -> None:
+    course = Course(Pendulum(1.0), 16384, Fraction(400), FLOAT64)
+    _, (verlet,) = score_method(find("verlet"), [course], FLOAT64)
+    _, (rk4,) = score_method(RK4, [course], FLOAT64)
+    assert abs(verlet.slope_per_period) < 3 * verlet.slope_interval
+    assert abs(rk4.slope_per_period) > 10 * rk4.slope_interval

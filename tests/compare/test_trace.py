@@ -1,0 +1,81 @@
+"""A compiled block is the plain step, in every format, or it is refused."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import heyoka as hy
+import numpy as np
+import pytest
+
+from compare.algebraic import Q
+from compare.method import Tableau
+from compare.methods import METHODS, find
+from compare.precision import FORMATS, Precision, precision
+from compare.trace import TraceError, compile_block, plain_block
+from reference import Pendulum
+
+FLOAT64 = precision("float64")
+PENDULUM = Pendulum(1.0)
+
+
+def lanes_of(fmt: Precision, count: int) -> tuple[np.ndarray, np.ndarray]:
+    zero = fmt.zeros((count,))
+    angles = fmt.array(Q(k + 1, count + 1) for k in range(count))
+    ones = fmt.array([1] * count)
+    return np.stack([angles, zero, zero, zero]), np.stack([ones / 64, zero, ones * 10, ones])
+
+
+@pytest.mark.parametrize("method", METHODS, ids=lambda method: method.name)
+@pytest.mark.parametrize("fmt", [*FORMATS, precision("mp:150")], ids=lambda fmt: fmt.name)
+def test_a_block_gives_the_plain_steps(method: Any, fmt: Precision) -> None:
+    iterations = 0 if method.contraction(1.0) == 0 else 24
+    batch = min(8, fmt.lanes)
+    block = compile_block(method, PENDULUM, fmt, 4, "every", batch, iterations)
+    lanes, parameters = lanes_of(fmt, 8)
+    out = fmt.zeros((block.out_rows(4), 8))
+    block(lanes, parameters, out)
+    plain = plain_block(method, PENDULUM, fmt, lanes, parameters, 4, iterations)
+    gap = np.abs((out.reshape(4, 4, 8)[:, :2] - plain).astype(np.float64))
+    assert np.max(gap) < 200 * fmt.epsilon
+
+
+def test_the_last_state_and_the_maxima_are_those_of_every_step() -> None:
+    lanes, parameters = lanes_of(FLOAT64, 8)
+    every = compile_block(find("rk4"), PENDULUM, FLOAT64, 16, "every", 8)
+    last = compile_block(find("rk4"), PENDULUM, FLOAT64, 16, "last", 8)
+    listed, ended = FLOAT64.zeros((64, 8)), FLOAT64.zeros((4, 8))
+    every(lanes, parameters, listed)
+    last(lanes, parameters, ended)
+    steps = listed.reshape(16, 4, 8)
+    np.testing.assert_allclose(ended[:2], steps[-1, :2], rtol=1e-13)
+    np.testing.assert_allclose(ended[2], steps[:, 2].max(axis=0), rtol=1e-13)
+
+
+def test_a_state_that_is_not_a_number_is_not_lost_in_the_maximum() -> None:
+    lanes, parameters = lanes_of(FLOAT64, 8)
+    lanes[0, 3] = np.nan
+    block = compile_block(find("euler"), PENDULUM, FLOAT64, 16, "last", 8)
+    out = FLOAT64.zeros((4, 8))
+    block(lanes, parameters, out)
+    assert np.isnan(out[2, 3])
+    assert np.all(np.isfinite(np.delete(out, 3, axis=1)))
+
+
+@dataclass(frozen=True)
+class BranchingEuler(Tableau):
+    """Euler's method that takes half a step where the angle is negative: no trace can follow it."""
+
+    def step(self, system: Any, y: Any, h: Any, iterations: int = 0) -> Any:
+        if isinstance(y[0], hy.expression):
+            return super().step(system, y, h if y[0] else h / 2, iterations)
+        slope = system.derivative(y)
+        size = np.where(y[0] < 0, h / 2, h)
+        return tuple(component + size * rate for component, rate in zip(y, slope, strict=True)), ()
+
+
+def test_a_step_with_a_branch_on_a_symbol_is_refused() -> None:
+    branching = BranchingEuler("branching", 1, "none", ((),), (Q(1),))
+    with pytest.raises(TraceError, match="branching compiled for pendulum in float64 is off by"):
+        compile_block(branching, PENDULUM, FLOAT64, 4, "last", 8)
