@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from matplotlib.figure import Figure
+from matplotlib.ticker import FormatStrFormatter, LogLocator, NullFormatter
 
 from compare.ink import GREY, Ink, inks, label_right, saved, style
 
@@ -70,8 +71,8 @@ def drift_figure(study: Study, theta0: float) -> Figure:
         axes.plot(trace.time, np.fmax.accumulate(size), color=ink[trace.method].colour, linewidth=2)
         axes.set_yscale("log")
         axes.grid(visible=True)
-    figure.supxlabel("time t [s]")
-    figure.supylabel("|E − E₀| / (E₀ − E_min);  thick: largest so far")
+    figure.supxlabel("time t [s];  thick: largest so far")
+    figure.supylabel("|E − E₀| / (E₀ − E_min)")
     return figure
 
 
@@ -153,9 +154,11 @@ def _draw_curves(axes: Any, curves: dict[str, list[Cell]], ink: dict[str, Ink], 
             zorder=3,
         )
         ends[method] = (float(x[-1]), y[-1])
-    axes.autoscale_view()
-    axes.set_xlim(axes.get_xlim())
-    axes.set_ylim(axes.get_ylim())
+    if curves:
+        axes.set_xlim(_decades([work(cell) for cells in curves.values() for cell in cells], 1.6))
+        axes.set_ylim(_decades([cell.max_error for cells in curves.values() for cell in cells], 2 * _BESIDE))
+    _set_ticks(axes.xaxis)
+    _set_ticks(axes.yaxis)
     label_right(axes, ends, ink)
     if any(cell.floor for cells in curves.values() for cell in cells):
         axes.text(0.012, 0.015, "hollow grey: rounding, not order", color=GREY, transform=axes.transAxes)
@@ -219,6 +222,7 @@ def _add_step_sizes(axes: Any, t_end: float) -> None:
     top = axes.twiny()
     top.set_xscale("log")
     top.set_xlim([t_end / n for n in axes.get_xlim()])
+    _set_ticks(top.xaxis)
     top.spines["top"].set_visible(True)
     top.set_xlabel(f"step size h = {t_end:g}/N [s]", color=GREY)
 
@@ -227,7 +231,7 @@ def _panel_figure(traces: Sequence[Trace], title: str, theta0: float) -> tuple[F
     """A panel a trace, all on the same axes."""
     columns = max(min(_PANEL_COLUMNS, len(traces)), 1)
     rows = max(math.ceil(len(traces) / columns), 1)
-    figure = Figure(figsize=(1.2 + 2.5 * columns, 1.3 + 2.0 * rows), layout="constrained")
+    figure = Figure(figsize=(max(1.2 + 2.5 * columns, 6.2), max(1.3 + 2.0 * rows, 4.0)), layout="constrained")
     grid = figure.subplots(rows, columns, sharex=True, sharey=True, squeeze=False)
     panels = list(grid.flat)
     for axes in panels[len(traces) :]:
@@ -238,6 +242,22 @@ def _panel_figure(traces: Sequence[Trace], title: str, theta0: float) -> tuple[F
     at = f", N = {min(steps)}" if len(steps) == 1 else ""
     figure.suptitle(f"{title}, θ₀ = {theta0!r} rad{at}", fontsize=13, fontweight="bold", x=0.01, ha="left")
     return figure, panels[: len(traces)]
+
+
+def _set_ticks(axis: Any) -> None:
+    """Powers of ten; over a short range 1, 2 and 5 times them, as plain numbers."""
+    low, high = sorted(axis.get_view_interval())
+    if high < 30 * low:
+        axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
+        axis.set_major_formatter(FormatStrFormatter("%g"))
+    axis.set_minor_formatter(NullFormatter())
+
+
+def _decades(values: Sequence[float], margin: float) -> tuple[float, float]:
+    """The range of the values with the margin, a factor, on both sides; a decade at least."""
+    low, high = min(values) / margin, max(values) * margin
+    more = max(math.sqrt(10 * low / high), 1.0)
+    return low / more, high * more
 
 
 def _framed(values: Any) -> tuple[float, float]:

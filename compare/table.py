@@ -269,4 +269,6 @@ def _local_order(order: float | None) -> str:
 def _fitted(fit: FittedOrder) -> str:
     if fit.fitted_order is None:
         return "-"
-    return f"{fit.fitted_order:.4f}" + ("" if fit.interval is None else f" ± {fit.interval:.4f}")
+    if fit.interval is None:
+        return f"{fit.fitted_order:.4f}"
+    return f"{fit.fitted_order:.4f} ± {fit.interval:{'.4f' if fit.interval >= 5e-5 else '.0e'}}"
