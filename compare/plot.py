@@ -263,5 +263,5 @@ def _decades(values: Sequence[float], margin: float) -> tuple[float, float]:
 def _framed(values: Any) -> tuple[float, float]:
     """The range of the values with room around it, so that an orbit which grows is seen to leave."""
     low, high = float(np.min(values)), float(np.max(values))
-    room = 0.35 * (high - low)
+    room = max(0.35 * (high - low), 1e-6 * max(abs(low), abs(high)), 1e-200)
     return low - room, high + room

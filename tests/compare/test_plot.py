@@ -104,3 +104,12 @@ def test_labels_are_spread_in_order_and_near_their_curves():
     assert crowded == pytest.approx([0.4, 0.5, 0.6])
     assert spread([-1.0, 2.0], 0.1) == [0.0, 1.0]
     assert spread([], 0.1) == []
+
+
+def test_an_orbit_that_does_not_move_is_drawn():
+    study = made_study(methods=("verlet",))
+    still = [
+        dataclasses.replace(trace, theta=np.full(401, 1.0), omega=np.zeros(401))
+        for trace in (study.traces[0], study.exact[0])
+    ]
+    assert len(plot.files(dataclasses.replace(study, traces=(still[0],), exact=(still[1],)))) == 8
