@@ -34,7 +34,7 @@ def exact(value: Any, name: str = "value") -> Fraction:
         TypeError: the value is not a real number.
     """
     found = _exact(value, name)
-    if max(found.numerator.bit_length(), found.denominator.bit_length()) > MAX_DIGITS * LOG2_10:
+    if max(found.numerator.bit_length(), found.denominator.bit_length()) > (MAX_DIGITS + 1) * LOG2_10:
         raise ValueError(f"{name} has a numerator or denominator of more than {MAX_DIGITS} digits; fewer are accepted.")
     return found
 

@@ -65,7 +65,7 @@ def _binary64(mantissa: int, exponent: int) -> float:
     try:
         return math.ldexp(*rounded(mantissa, exponent, BINARY64_BITS, BINARY64_MIN_EXPONENT))
     except OverflowError:
-        return math.copysign(math.inf, mantissa)
+        return math.inf if mantissa > 0 else -math.inf
 
 
 def _beyond_range() -> OverflowError:
