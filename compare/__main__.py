@@ -14,6 +14,7 @@ import sys
 from typing import TYPE_CHECKING
 
 from compare.arguments import Request, parse
+from reference.terminal import run
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
@@ -24,21 +25,18 @@ if TYPE_CHECKING:
 __all__ = ["main"]
 
 DEFAULT_FOLDER = "horologium-{problem}"
+WORTH_PROCESSES = 1 << 18
+"""Steps in all from which starting a process a core takes less time than it saves."""
 
 
 def main(words: Sequence[str] | None = None) -> int:
     """Run one command line and return its exit code."""
-    try:
-        request = parse(sys.argv[1:] if words is None else words)
-        _print(_listing(request.form) if request.command == "list" else _pendulum(request))
-    except BrokenPipeError:
-        _silence_stdout()
-        return 141
-    except KeyboardInterrupt:
-        return 130
-    except (ValueError, OSError) as error:
-        print(f"error: {error}", file=sys.stderr)
-        return 2
+    return run(_command, words)
+
+
+def _command(words: Sequence[str] | None = None) -> int:
+    request = parse(sys.argv[1:] if words is None else words)
+    _print(_listing(request.form) if request.command == "list" else _pendulum(request))
     return 0
 
 
@@ -67,8 +65,11 @@ def _pendulum(request: Request) -> str:
 
 def _study(request: Request, progress: Callable[[str], None] | None) -> Study:
     from compare.studies import pendulum
+    from reference.executors import opened
 
-    return pendulum.study(**request.options, traces=request.plots, progress=progress)
+    steps = sum(request.options.get("n", pendulum.DEFAULT_N))
+    with opened("process", (os.cpu_count() or 1) if steps >= WORTH_PROCESSES else 1) as executor:
+        return pendulum.study(**request.options, traces=request.plots, progress=progress, executor=executor)
 
 
 def _write(study: Study, request: Request, results: Folder, width: int, progress: Callable[[str], None] | None) -> None:
@@ -103,25 +104,9 @@ def _progress(quiet: bool) -> Iterator[Callable[[str], None] | None]:
 
 
 def _print(text: str) -> None:
-    """Print the tables, in UTF-8 or in what the terminal can show.
-
-    Raises:
-        OSError: stdout cannot be written.
-    """
+    """Print the tables, in UTF-8 or in what the terminal can show."""
     encoding = sys.stdout.encoding or "utf-8"
-    try:
-        sys.stdout.write(text.encode(encoding, "replace").decode(encoding))
-        sys.stdout.flush()
-    except BrokenPipeError:
-        raise
-    except OSError as error:
-        _silence_stdout()
-        raise OSError(f"cannot write to standard output: {(error.strerror or str(error)).lower()}.") from error
-
-
-def _silence_stdout() -> None:
-    """Let the interpreter's last flush go nowhere."""
-    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+    sys.stdout.write(text.encode(encoding, "replace").decode(encoding))
 
 
 if __name__ == "__main__":

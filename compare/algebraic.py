@@ -78,12 +78,21 @@ class Algebraic:
         terms = [f"{c}" if not name else f"{c}*{name}" for c, name in zip(powers, names, strict=True) if c != 0]
         return " + ".join(terms).replace("+ -", "- ") or "0"
 
+    def __reduce__(self) -> tuple[object, ...]:
+        coefficients = [(int(self.polynomial[i].p), int(self.polynomial[i].q)) for i in range(self.degree)]
+        return _rebuilt, (coefficients, self.radicand, self.degree)
+
     def ball(self) -> arb:
         """The enclosure at the precision in force, by Horner's rule."""
         r, value = arb(self.radicand).root(self.degree), arb(0)
         for i in reversed(range(self.degree)):
             value = value * r + arb(self.polynomial[i])
         return value
+
+
+def _rebuilt(coefficients: list[tuple[int, int]], radicand: int, degree: int) -> Algebraic:
+    """An unpickled number."""
+    return Algebraic(fmpq_poly([fmpq(p, q) for p, q in coefficients]), radicand, degree)
 
 
 Coefficient: TypeAlias = Fraction | Algebraic

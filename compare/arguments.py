@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import argparse
-import difflib
 import re
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, NoReturn
 
 from compare.table import FORMATS
+from reference.names import unknown
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -170,9 +170,7 @@ def _whole(piece: str, name: str) -> int:
 def _known(kind: str, word: str, names: Sequence[str]) -> str:
     if word in names:
         return word
-    near = difflib.get_close_matches(word, names, 1, 0.4)
-    hint = f", perhaps {near[0]}" if near else ""
-    raise ValueError(f"{kind} {_short(word)!r} is unknown{hint}; {_alternatives(names)} is accepted.")
+    raise ValueError(unknown(kind, _short(word), names))
 
 
 def _known_option(word: str, names: Sequence[str]) -> None:

@@ -188,7 +188,7 @@ class Splitting:
 def compose(
     base: Splitting, weights: Sequence[Coefficient], name: str, order: int, source: str, aliases: tuple[str, ...] = ()
 ) -> Splitting:
-    """The splitting that applies ``base`` with the steps ``weights`` h one after another, neighbours of one kind merged."""
+    """The splitting that applies ``base`` with steps ``weights`` h one after another, neighbours of one kind merged."""
     flows: list[tuple[str, Coefficient]] = []
     for weight in weights:
         for kind, coefficient in base.flows:

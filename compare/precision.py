@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import difflib
 import math
 from dataclasses import dataclass
 from fractions import Fraction
@@ -13,6 +12,7 @@ import numpy as np
 
 from reference.arithmetic import BALL
 from reference.limbs import exact_decimal, interval, rounded, ziv
+from reference.names import unknown
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
@@ -135,10 +135,6 @@ def precision(name: str) -> Precision:
     kind, _, bits = name.partition(":")
     if kind == "mp" and bits.isdecimal() and MIN_BITS <= int(bits) <= MAX_BITS:
         return Precision(name, int(bits), hy.real, 1)
-    names = [*(known.name for known in FORMATS), "mp:200"]
-    near = difflib.get_close_matches(name, names, 1, 0.4)
-    hint = f", perhaps {near[0]}" if near else ""
     raise ValueError(
-        f"precision '{name}' is unknown{hint}; float32, float64, longdouble, float128 or mp:BITS "
-        f"with {MIN_BITS} <= BITS <= {MAX_BITS} is accepted."
+        unknown("precision", name, [*(known.name for known in FORMATS), f"mp:{MIN_BITS} to mp:{MAX_BITS}"])
     )

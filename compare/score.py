@@ -46,8 +46,17 @@ class Course:
 
     @cached_property
     def h(self) -> Fraction:
-        """t_end/N rounded to the format, exactly."""
-        return self.fmt.round(self.t_end / self.n)
+        """t_end/N rounded to the format, exactly.
+
+        Raises:
+            ValueError: it is smaller than any number of the format.
+        """
+        h = self.fmt.round(self.t_end / self.n)
+        if not self.fmt.number(h):
+            raise ValueError(
+                f"t_end/n is {float(h):.1e}, which {self.fmt.name} cannot hold; a longer time is accepted."
+            )
+        return h
 
     @cached_property
     def steps(self) -> tuple[int, ...]:
@@ -85,6 +94,12 @@ def score_method(method: Method, courses: Sequence[Course], fmt: Precision) -> t
     Each course is marched beside its neighbour: their errors differ by rounding alone, as the method and the problem
     carry it along.  A cell within FLOOR_FACTOR of that difference is marked as floor, and so is every finer one.
     """
+    # A march that overflows is scored as what it is, infinite or not a number; NumPy need not warn of it besides.
+    with np.errstate(over="ignore", invalid="ignore"):
+        return _scores(method, courses, fmt)
+
+
+def _scores(method: Method, courses: Sequence[Course], fmt: Precision) -> tuple[list[Cell], list[Drift]]:
     marches = march(method, [lane for course in courses for lane in (course.lane, course.neighbour.lane)], fmt)
     found, neighbours = marches[::2], marches[1::2]
     cells: list[Cell] = []
@@ -129,19 +144,29 @@ def _drift(method: Method, course: Course, result: March) -> Drift:
         n=course.n,
         h=float(course.h),
         theta0=_amplitude(problem),
-        max_drift_above_rest=result.max_drift / start,
-        max_drift_relative=result.max_drift / abs(float(problem.certified("energy"))),
+        max_drift_above_rest=_ratio(result.max_drift, start),
+        max_drift_relative=_ratio(result.max_drift, abs(float(problem.certified("energy")))),
         slope_per_period=slope,
         slope_interval=interval,
     )
 
 
+def _ratio(drift: float, scale: float) -> float:
+    """drift/scale; not a number where the scale is below the range of doubles."""
+    return drift / scale if scale else math.nan
+
+
 def relative_drift(course: Course, states: np.ndarray) -> np.ndarray:
-    """(E - E0)/(E0 - Emin) of states [samples, state], computed in the format, as float64."""
+    """(E - E0)/(E0 - Emin) of states [samples, state], computed in the format, as float64.
+
+    Not a number where E0 - Emin is below the range of the format.
+    """
     fmt, problem = course.fmt, course.problem
     parameters = {name: fmt.number(value) for name, value in problem.parameters.items()}
     energies = problem.invariant(NUMPY, tuple(np.moveaxis(states, 1, 0)), parameters)
     start = fmt.number(StartInvariant(problem))
+    if not start:
+        return np.full(len(states), np.nan)
     drift: np.ndarray = ((energies - start) / start).astype(np.float64)
     return drift
 
@@ -189,12 +214,14 @@ def slope_with_interval(x: np.ndarray, y: np.ndarray) -> tuple[float, float]:
     """The least-squares slope of y against x and the half-width of its 95 % interval; NaN below three points."""
     if len(x) < 3 or not np.all(np.isfinite(y)):
         return math.nan, math.nan
-    centred = x - x.mean()
+    scale = float(np.max(x) - np.min(x))
+    centred = (x - x.mean()) / scale
     spread = float(centred @ centred)
     slope = float(centred @ (y - y.mean())) / spread
     residual = y - y.mean() - slope * centred
     freedom = len(x) - 2
-    return slope, student_95(freedom) * math.sqrt(float(residual @ residual) / freedom / spread)
+    half = student_95(freedom) * math.sqrt(float(residual @ residual) / freedom / spread)
+    return slope / scale, half / scale
 
 
 def student_95(freedom: int) -> float:

@@ -181,7 +181,7 @@ def _trust(block: Block, method: Method, problem: Problem, fmt: Precision, itera
 
 
 def _random_points(problem: Problem, fmt: Precision, batch: int) -> tuple[np.ndarray, np.ndarray]:
-    """Random states within (-3, 3), step sizes within (0, 0.1) and parameters within a factor 2 of the problem's."""
+    """Random states within (-3, 3), step sizes within (0.01, 0.1) and parameters within (1/2, 2)."""
     random = np.random.default_rng(20260101)
     lanes_count = batch * -(-CHECK_LANES // batch)
 
@@ -190,5 +190,5 @@ def _random_points(problem: Problem, fmt: Precision, batch: int) -> tuple[np.nda
 
     zero = fmt.zeros((lanes_count,))
     lanes = np.stack([*(column(-3, 3) for _ in problem.state_names), zero, zero])
-    values = [column(float(value) / 2, float(value) * 2) for value in problem.parameters.values()]
+    values = [column(0.5, 2) for _ in problem.parameters]
     return lanes, np.stack([column(0.01, 0.1), zero, *values])

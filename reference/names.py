@@ -13,10 +13,10 @@ __all__ = ["unknown"]
 SHOWN = 12
 
 
-def unknown(kind: str, given: str, names: Iterable[str]) -> str:
-    """Return for example "profile 'cor' is unknown; did you mean 'core'?  Accepted: core, full."."""
-    accepted = sorted(names)
-    near = get_close_matches(given, accepted, n=3, cutoff=0.5)
-    guess = f" did you mean {' or '.join(repr(name) for name in near)}?" if near else ""
+def unknown(kind: str, given: str, names: Iterable[str], aliases: Iterable[str] = ()) -> str:
+    """Return for example "profile 'cor' is unknown, perhaps core; accepted are core, full."; aliases may be nearest."""
+    accepted = list(names)
+    near = get_close_matches(given, [*accepted, *aliases], n=3, cutoff=0.5)
+    guess = f", perhaps {' or '.join(near)}" if near else ""
     more = ", ..." if len(accepted) > SHOWN else ""
-    return f"{kind} '{given}' is unknown;{guess} accepted: {', '.join(accepted[:SHOWN])}{more}."
+    return f"{kind} '{given}' is unknown{guess}; accepted are {', '.join(accepted[:SHOWN])}{more}."

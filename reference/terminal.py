@@ -79,10 +79,17 @@ def run(command: Callable[[Sequence[str] | None], int], arguments: Sequence[str]
         return INTERRUPTED
     except (OSError, ValueError, ImportError, ArithmeticError, RuntimeError) as error:
         sys.stderr.write(f"error: {_sentence(error)}\n")
-        if isinstance(error, OSError):
-            _silence_output()
+        _give_up_a_full_output()
         return 2
     return code
+
+
+def _give_up_a_full_output() -> None:
+    """Where stdout cannot take what it still holds, let it go: the sentence has been said."""
+    try:
+        sys.stdout.flush()
+    except OSError:
+        _silence_output()
 
 
 def _sentence(error: Exception) -> str:

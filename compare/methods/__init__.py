@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import difflib
 from typing import TYPE_CHECKING
 
 from compare.methods.explicit import EXPLICIT
 from compare.methods.implicit import IMPLICIT
 from compare.methods.symplectic import SYMPLECTIC
+from reference.names import unknown
 
 if TYPE_CHECKING:
     from compare.method import Method
@@ -26,7 +26,5 @@ def find(name: str) -> Method:
     for method in METHODS:
         if name in {method.name, *method.aliases}:
             return method
-    names = [name for method in METHODS for name in (method.name, *method.aliases)]
-    near = difflib.get_close_matches(name, names, 3, 0.5)
-    accepted = ", ".join(near) if near else ", ".join(method.name for method in METHODS)
-    raise ValueError(f"method '{name}' is unknown; {'the nearest are' if near else 'accepted are'} {accepted}.")
+    names, aliases = [method.name for method in METHODS], [alias for method in METHODS for alias in method.aliases]
+    raise ValueError(unknown("method", name, names, aliases))

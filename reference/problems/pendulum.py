@@ -281,7 +281,7 @@ class Pendulum(SeparableProblem):
 
     def rate(self) -> float:
         """omega0: |d(omega')/d(theta)| <= omega0^2."""
-        return math.sqrt(self.g / self.length)
+        return float(mp.sqrt(MPMATH.number(self.g / self.length)))
 
     def neighbour(self, rounding: Callable[[Fraction], Fraction]) -> Pendulum:
         """The pendulum from theta0 less 2^-20 of its distance to the nearer of 0 and pi."""

@@ -1,5 +1,6 @@
 """Exact coefficients."""
 
+import pickle
 from fractions import Fraction
 
 import pytest
@@ -47,6 +48,11 @@ def test_the_triple_jump_weight_is_yoshidas() -> None:
     with ctx.workprec(200):
         assert enclose(weight).overlaps(1 / (2 - arb(2).root(3)))
         assert abs(float(enclose(weight)) - 1.3512071919596578) < 1e-15
+
+
+@given(elements)
+def test_a_number_survives_pickling(a: object) -> None:
+    assert pickle.loads(pickle.dumps(a)) == a  # noqa: S301 - our own bytes
 
 
 def test_a_reducible_radical_is_refused() -> None:

@@ -57,9 +57,9 @@ def test_an_alias_is_the_same_method() -> None:
 
 
 def test_an_unknown_method_names_the_nearest() -> None:
-    with pytest.raises(ValueError, match="method 'yoshida' is unknown; the nearest are yoshida4"):
+    with pytest.raises(ValueError, match="method 'yoshida' is unknown, perhaps yoshida4"):
         find("yoshida")
-    with pytest.raises(ValueError, match="accepted are euler, midpoint"):
+    with pytest.raises(ValueError, match="method '###' is unknown; accepted are euler, midpoint"):
         find("###")
 
 

@@ -1,0 +1,31 @@
+"""The public functions."""
+
+from __future__ import annotations
+
+import compare
+from compare.studies.pendulum import study
+from reference import Pendulum
+from reference.executors import opened
+
+
+def test_error_vs_n_and_energy_drift_give_what_the_study_gives() -> None:
+    found = study(n=(128, 256), methods=("rk4", "verlet"))
+    assert compare.error_vs_n(Pendulum(1.0), methods=("rk4", "verlet"), n=[128, 256]) == found.error_vs_n
+    assert compare.energy_drift(Pendulum(1.0), methods=("rk4", "verlet"), n=[128, 256]) == found.energy_drift
+
+
+def test_processes_give_what_one_process_gives() -> None:
+    alone = study(n=(128, 16384), methods=("yoshida4", "euler", "implicit_midpoint"))
+    with opened("process", 2) as executor:
+        shared = study(n=(128, 16384), methods=("yoshida4", "euler", "implicit_midpoint"), executor=executor)
+    assert shared == alone
+
+
+def test_scores_in_a_wide_format_are_numbers_too() -> None:
+    (cell,) = compare.error_vs_n(Pendulum("1/2"), methods=("suzuki4",), n=[512], precision="mp:160", t_end="2.5")
+    assert 0 < cell.max_error < 1e-6
+    assert not cell.floor
+
+
+def test_an_unknown_name_is_no_attribute() -> None:
+    assert not hasattr(compare, "nonsense")
