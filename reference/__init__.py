@@ -2,19 +2,28 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
-from reference.certify import Certified
-from reference.problems.pendulum import Pendulum
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     import os
 
+    from reference.certify import Certified
+    from reference.problems.pendulum import Pendulum
     from reference.store import Dataset
 
 __all__ = ["Certified", "Pendulum", "__version__", "load"]
 
 __version__ = "0.1.0"
+
+_HOMES = {"Certified": "reference.certify", "Pendulum": "reference.problems.pendulum"}
+
+
+def __getattr__(name: str) -> Any:
+    """The public classes, imported when first asked for: a command line's help needs none of them."""
+    if name in _HOMES:
+        return getattr(import_module(_HOMES[name]), name)
+    raise AttributeError(f"module 'reference' has no attribute {name!r}")
 
 
 def load(path: str | os.PathLike[str] | None = None) -> Dataset:
