@@ -185,6 +185,7 @@ def _text_row(grid: Grid, widths: Sequence[int], cells: Sequence[str]) -> str:
 
 
 def markdown_text(cell: str) -> str:
+    """A cell with the characters escaped that Markdown would read as markup."""
     return re.sub(r"([|*_<>\\])", r"\\\1", cell)
 
 

@@ -1,0 +1,101 @@
+"""How the packages hang together."""
+
+from __future__ import annotations
+
+import ast
+import importlib
+import inspect
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[1]
+PACKAGES = ("reference", "compare")
+SOURCES = sorted(path for package in PACKAGES for path in (ROOT / package).rglob("*.py"))
+
+
+def module_name(path: Path) -> str:
+    parts = path.relative_to(ROOT).with_suffix("").parts
+    return ".".join(parts[:-1] if parts[-1] == "__init__" else parts)
+
+
+MODULES = [module_name(path) for path in SOURCES if path.name != "__main__.py"]
+
+
+def imports(path: Path) -> set[str]:
+    """The absolute names of all modules that a file imports, wherever it does."""
+    found: set[str] = set()
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.Import):
+            found |= {alias.name for alias in node.names}
+        elif isinstance(node, ast.ImportFrom):
+            assert node.level == 0, f"{path}: a relative import"
+            found.add(str(node.module))
+            found |= {f"{node.module}.{alias.name}" for alias in node.names}
+        elif isinstance(node, ast.Call) and "import" in ast.unparse(node.func):
+            found |= {str(argument.value) for argument in node.args if isinstance(argument, ast.Constant)}
+    return found
+
+
+def id_of(path: Path) -> str:
+    return str(path.relative_to(ROOT))
+
+
+def test_there_are_sources_in_both_packages():
+    assert {path.relative_to(ROOT).parts[0] for path in SOURCES} == set(PACKAGES)
+    assert len(SOURCES) > 20
+
+
+@pytest.mark.parametrize("path", [path for path in SOURCES if path.is_relative_to(ROOT / "reference")], ids=id_of)
+def test_the_reference_never_imports_what_is_compared_with_it(path):
+    assert not {name for name in imports(path) if name.split(".")[0] == "compare"}
+
+
+@pytest.mark.parametrize("path", SOURCES, ids=id_of)
+def test_nothing_imports_a_command_line(path):
+    assert not {name for name in imports(path) if name.endswith("__main__")}
+
+
+@pytest.mark.parametrize("path", SOURCES, ids=id_of)
+def test_only_the_store_knows_the_file_format(path):
+    if not path.is_relative_to(ROOT / "reference" / "store"):
+        assert not {name for name in imports(path) if name.split(".")[0] == "h5py"}
+
+
+@pytest.mark.parametrize("path", SOURCES, ids=id_of)
+def test_nothing_imports_the_tests(path):
+    assert not {
+        name for name in imports(path) if name.split(".")[0] in {"tests", "pytest", "hypothesis", "independent"}
+    }
+
+
+@pytest.mark.parametrize("name", MODULES)
+def test_every_public_thing_says_what_it_is(name):
+    module = importlib.import_module(name)
+    assert module.__doc__, f"{name} has no docstring"
+    for public in getattr(module, "__all__", ()):
+        value = getattr(module, public)
+        if inspect.isclass(value) or inspect.isfunction(value):
+            assert inspect.getdoc(value), f"{name}.{public} has no docstring"
+
+
+@pytest.mark.parametrize("name", MODULES)
+def test_every_name_that_a_module_promises_is_there(name):
+    module = importlib.import_module(name)
+    missing = [public for public in getattr(module, "__all__", ()) if not hasattr(module, public)]
+    assert not missing
+
+
+@pytest.mark.parametrize("path", SOURCES, ids=id_of)
+def test_a_module_is_one_idea_of_readable_length(path):
+    assert len(path.read_text(encoding="utf-8").splitlines()) <= 400
+
+
+@pytest.mark.parametrize("package", PACKAGES)
+def test_importing_a_package_leaves_the_slow_libraries_for_later(package):
+    slow = "('matplotlib', 'xarray', 'h5py', 'scipy', 'rich')"
+    code = f"import sys, {package}; print([name for name in {slow} if name in sys.modules])"
+    done = subprocess.run([sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, check=True)
+    assert done.stdout.strip() == "[]"
