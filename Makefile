@@ -34,6 +34,7 @@ $(STAMP): pyproject.toml constraints.txt
 data: $(DATASET)
 
 $(DATASET): | $(STAMP)
+	@mkdir -p $(@D)
 	$(RUN) -m reference build --profile core --out $@
 
 run: $(STAMP) $(DATASET)
