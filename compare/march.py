@@ -34,6 +34,8 @@ LONG_BLOCKS, SHORT_BLOCK = (64, 32, 16), 8
 LONG_MARCH = 8192
 BLOCK_EVALUATIONS, MIN_BLOCK = 256, 8
 MAX_CONTRACTION = 0.5
+ITERATIONS = (6, 8, 12, 16, 24, 36, 54, 80, 120, 180, 270)
+"""Counts of fixed-point iterations: few, for each is compiled, and less than doubling, so that work grows with N."""
 CONVERGED = 1000
 """A last fixed-point iteration may change the state by this many roundings."""
 
@@ -102,7 +104,7 @@ def _block_steps(grain: int, evaluations: int) -> int:
 
 
 def iterations_for(method: Method, problem: Problem, h: float, bits: int) -> int | None:
-    """Fixed-point iterations that bring the stages to rounding: 0 for an explicit method, else 8, 24, 72 or 216.
+    """Fixed-point iterations that bring the stages to rounding: 0 for an explicit method, else one of ITERATIONS.
 
     None where an iteration would gain less than a bit.
     """
@@ -112,7 +114,7 @@ def iterations_for(method: Method, problem: Problem, h: float, bits: int) -> int
     if contraction > MAX_CONTRACTION:
         return None
     needed = (bits + 3) / -math.log2(contraction)
-    return next((count for count in (8, 24, 72, 216) if count > needed), None)
+    return next((count for count in ITERATIONS if count > needed), None)
 
 
 def march(method: Method, lanes: Sequence[Lane], fmt: Precision) -> list[March]:
