@@ -113,11 +113,11 @@ def _build(asked: argparse.Namespace) -> int:
     from reference.build import build
     from reference.catalogue import plan
 
-    out = Path(asked.out) if asked.out is not None else _default_out(asked.profile)
+    out = _default_out(asked.profile) if asked.out is None else asked.out
     with progress_bar("proving", quiet=asked.quiet) as progress:
         fingerprint = build(plan(asked.profile), out, jobs=asked.jobs, executor=asked.executor, progress=progress)
     if not asked.quiet:
-        print(f"{out}: {out.stat().st_size} bytes, fingerprint sha256:{fingerprint}")
+        print(f"{out}: {Path(out).stat().st_size} bytes, fingerprint sha256:{fingerprint}")
     return 0
 
 

@@ -58,15 +58,14 @@ def build(
     """
     target = destination(out)
     try:
-        _ensure_space(plan, target)
         with partial(target, plan.identity(reference.__version__)) as finished:
+            _ensure_space(plan, target)
             _prove(plan, finished, jobs, executor, progress or (lambda _done, _all: None))
             return _write(plan, target, finished)
     except (PermissionError, FileNotFoundError) as error:
-        raise OSError(f"'{out}' cannot be written: {error.strerror}.") from None
+        raise OSError(f"'{out}' cannot be written: no file can be made in that folder ({error.strerror}).") from None
     except OSError as error:
-        full = error.errno in DISK_FULL or any(os.strerror(number) in str(error) for number in DISK_FULL)
-        reason = "the disk is full" if full else error.strerror or str(error)
+        reason = "the disk is full" if error.errno in DISK_FULL else error.strerror or str(error)
         raise OSError(f"'{out}' was not written: {reason}; nothing was left behind.") from None
 
 
@@ -126,12 +125,9 @@ class Tally:
 def _write(plan: Plan, target: Path, finished: Partial) -> str:
     """Write the finished blocks in the order of the plan, and let the file take its place."""
     with replacing(target) as temporary:
-        try:
-            with writing(temporary, plan) as writer:
-                _fill(plan, writer, finished)
-                fingerprint = writer.finish(reference.__version__, plan.profile, provenance())
-        except RuntimeError as error:
-            raise OSError(str(error)) from None
+        with writing(temporary, plan) as writer:
+            _fill(plan, writer, finished)
+            fingerprint = writer.finish(reference.__version__, plan.profile, provenance())
         digest = sha256(temporary)
         note_checksum(target, None)
     note_checksum(target, digest)

@@ -34,7 +34,8 @@ This file holds such values for problems with a closed form, each proven: to tes
 ## What a number means
 
 Inputs (coordinates and the groups' parameters) are exact binary64 numbers: 9.81 stands for {gravity}.
-A value x is stored as `x = value + tail[0] + tail[1]`: `value` is x correctly rounded to binary64 (nearest, ties to even), \
+A value x is stored as `x = value + tail[0] + tail[1]`: \
+`value` is x correctly rounded to binary64 (nearest, ties to even), \
 each limb of `NAME_tail` is the correctly rounded rest.
 `value` alone is the correctly rounded double, with one limb it is a double-double, with both it has about 48 digits.
 
@@ -76,7 +77,8 @@ print(period.value, period.tail, period.units)
 ## How to trust it
 
 `sha256sum -c SHA256SUMS` checks the bytes.
-The fingerprint is a SHA-256 over the content alone (paths, shapes, types, dimension names, units, definitions and numbers); \
+The fingerprint is a SHA-256 over the content alone \
+(paths, shapes, types, dimension names, units, definitions and numbers); \
 since every number is the one correct rounding, every build on any machine gives the same.
 Versions of the tools, processor and, where SOURCE_DATE_EPOCH was set, the date stand in `/provenance`, outside it.
 

@@ -53,8 +53,8 @@ class Partial:
 def partial(target: Path, identity: str) -> Iterator[Partial]:
     """Open the folder ``TARGET.partial`` for a plan; blocks of another plan or version in it are thrown away.
 
-    It is removed when the build is finished and when the disk is full or unwritable (OSError); whatever else stops
-    the build, such as an interrupt, leaves it for the next one.
+    It is removed when the build is finished, when nothing is in it, and when the disk is full or unwritable (OSError);
+    whatever else stops the build, such as an interrupt, leaves it for the next one.
 
     Raises:
         BusyError: another build of the same file is running.
@@ -71,8 +71,11 @@ def partial(target: Path, identity: str) -> Iterator[Partial]:
             folder = home / identity
             folder.mkdir(exist_ok=True)
             yield Partial(folder)
-    except OSError:
-        shutil.rmtree(home, ignore_errors=True)
+    except BusyError:
+        raise
+    except BaseException as error:
+        if isinstance(error, OSError) or not any(home.glob("*/*.block")):
+            shutil.rmtree(home, ignore_errors=True)
         raise
     shutil.rmtree(home)
 

@@ -27,6 +27,7 @@ class Flow:
     def __init__(self, problem: Problem, bits: int) -> None:
         import heyoka
 
+        heyoka.set_logger_level_error()  # it warns on stdout where its own disk cache cannot be written
         self._hy = heyoka
         self._problem = problem
         self._bits = bits

@@ -61,7 +61,10 @@ def dimensions(dataset: h5py.Dataset) -> tuple[str, ...]:
             raise DatasetError(
                 f"'{dataset.file.filename}': axis {i} of {dataset.name} has {len(axis)} dimension scales."
             )
-        names.append(axis[0].name.rpartition("/")[2])
+        name = axis[0].name
+        if name is None:
+            raise DatasetError(f"'{dataset.file.filename}': the scale of axis {i} of {dataset.name} has no name.")
+        names.append(name.rpartition("/")[2])
     return tuple(names)
 
 

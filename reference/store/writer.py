@@ -21,6 +21,7 @@ from reference.store.schema import (
     limb_axis,
     root_attributes,
 )
+from reference.store.sink import Sink
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
@@ -37,8 +38,8 @@ VERSION_BOUND = ("v110", "v110")
 class Writer:
     """An open file that takes the plan's blocks one by one."""
 
-    def __init__(self, file: h5py.File, plan: Plan) -> None:
-        self._file = file
+    def __init__(self, file: h5py.File, plan: Plan, sink: Sink) -> None:
+        self._file, self._sink = file, sink
         limb = _create(file, limb_axis(), (TAIL_LIMBS,), np.arange(TAIL_LIMBS))
         for group in plan.groups:
             _create_group(file, group, limb)
@@ -53,6 +54,7 @@ class Writer:
             path = f"{block.layout.path}/{variable.quantity.name}"
             self._file[path][at] = found[..., 0]
             self._file[f"{path}_tail"][at] = found[..., 1:]
+        self._sink.check()
 
     @staticmethod
     def _variables(block: Block) -> list[Any]:
@@ -72,9 +74,15 @@ class Writer:
 
 @contextmanager
 def writing(path: Path, plan: Plan) -> Iterator[Writer]:
-    """Open a file for a plan, laid out and its inputs written."""
-    with h5py.File(path, "w", libver=VERSION_BOUND, track_order=False) as file:
-        yield Writer(file, plan)
+    """Open a file for a plan, laid out and its inputs written.
+
+    Raises:
+        OSError: a write failed; the file is closed and worthless.
+    """
+    with Sink(path) as sink:
+        with h5py.File(sink, "w", libver=VERSION_BOUND, track_order=False) as file:
+            yield Writer(file, plan, sink)
+        sink.check()
 
 
 def _create_group(file: h5py.File, group: Group, limb: h5py.Dataset) -> None:

@@ -1,0 +1,38 @@
+"""A small dataset of the real groups, built once."""
+
+from __future__ import annotations
+
+import shutil
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from reference import catalogue
+from reference.build import build
+from reference.plan import Group, Plan
+
+SMALL = Plan(
+    "core",
+    (
+        Group(
+            catalogue.LIBRATION,
+            catalogue.EARTH,
+            {"amplitude": [0.5, 2.0], "time": np.arange(5) / 4, "event": [0, 1]},
+        ),
+    ),
+)
+
+
+@pytest.fixture(scope="session")
+def built(tmp_path_factory):
+    """The path of the built file, a checksum beside it."""
+    path = tmp_path_factory.mktemp("built") / "tiny.h5"
+    build(SMALL, path)
+    return path
+
+
+@pytest.fixture
+def copy(built, tmp_path):
+    """A copy without checksums beside it, to damage at will."""
+    return Path(shutil.copy(built, tmp_path / "copy.h5"))

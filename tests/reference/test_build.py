@@ -1,0 +1,313 @@
+"""Building: the same bytes every time, resumed or not, and nothing half-written."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+import textwrap
+from contextlib import suppress
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import reference
+from reference import build as building
+from reference import catalogue
+from reference.blocks import Result, compute, spread
+from reference.build import build
+from reference.certify import Agreement
+from reference.executors import opened, results
+from reference.partial import BusyError, partial
+from reference.plan import BLOCK_LENGTH, Group, Plan
+from reference.store import load
+from reference.store.files import note_checksum
+
+ROOT = Path(reference.__file__).parents[1]
+TINY = Plan(
+    "core",
+    (Group(catalogue.LONG, catalogue.EARTH, {"amplitude": [0.5, 2.0, 3.0], "time": [0.0, 1.0, 2.0**20]}),),
+)
+
+
+def leftovers(folder):
+    return sorted(path.name for path in folder.iterdir())
+
+
+def test_one_job_and_two_jobs_give_the_same_bytes(tmp_path):
+    one, two = tmp_path / "one.h5", tmp_path / "two.h5"
+    assert build(TINY, one, jobs=1) == build(TINY, two, jobs=2)
+    assert one.read_bytes() == two.read_bytes()
+    assert leftovers(tmp_path) == ["SHA256SUMS", "one.h5", "two.h5"]
+
+
+def test_the_day_changes_the_provenance_and_not_the_fingerprint(tmp_path, monkeypatch):
+    monkeypatch.setenv("SOURCE_DATE_EPOCH", "0")
+    first = build(TINY, tmp_path / "a.h5")
+    monkeypatch.setenv("SOURCE_DATE_EPOCH", "86400")
+    assert build(TINY, tmp_path / "b.h5") == first
+    dates = [load(tmp_path / name).provenance["date"] for name in ("a.h5", "b.h5")]
+    assert dates == ["1970-01-01T00:00:00+00:00", "1970-01-02T00:00:00+00:00"]
+    monkeypatch.delenv("SOURCE_DATE_EPOCH")
+    assert "date" not in building.provenance()
+    assert building.provenance()["heyoka"]
+
+
+def test_a_date_that_is_no_number_is_refused(monkeypatch):
+    monkeypatch.setenv("SOURCE_DATE_EPOCH", "today")
+    with pytest.raises(ValueError, match="SOURCE_DATE_EPOCH is 'today'"):
+        building.provenance()
+
+
+def test_an_interrupted_build_goes_on_where_it_stopped(tmp_path, monkeypatch):
+    whole = build(TINY, tmp_path / "whole.h5")
+    out = tmp_path / "parts.h5"
+
+    def stop(done, _total):
+        if done == 2:
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        build(TINY, out, progress=stop)
+    assert not out.exists()
+    assert len(list((tmp_path / "parts.h5.partial").glob("*/*.block"))) == 2
+    again = []
+    monkeypatch.setattr(building, "compute", lambda block: again.append(block) or compute(block))
+    assert build(TINY, out) == whole
+    assert len(again) == 1
+    assert out.read_bytes() == (tmp_path / "whole.h5").read_bytes()
+    assert leftovers(tmp_path) == ["SHA256SUMS", "parts.h5", "whole.h5"]
+
+
+def interrupted(out, identity, blocks):
+    """A build that is stopped after these blocks."""
+    with suppress(KeyboardInterrupt), partial(out, identity) as finished:
+        for block in blocks:
+            finished.put(block, compute(block))
+        raise KeyboardInterrupt
+
+
+def test_a_damaged_block_is_proven_again(tmp_path):
+    out = tmp_path / "x.h5"
+    identity = TINY.identity(reference.__version__)
+    folder = tmp_path / "x.h5.partial" / identity
+    whole = build(TINY, tmp_path / "whole.h5")
+    interrupted(out, identity, TINY.blocks())
+    block = next(folder.glob("*.block"))
+    block.write_bytes(block.read_bytes()[:-1])
+    assert build(TINY, out) == whole
+
+
+def test_blocks_of_another_plan_are_not_used(tmp_path):
+    other = Plan("core", (Group(catalogue.LONG, catalogue.UNIT, TINY.groups[0].inputs),))
+    assert other.identity("1") != TINY.identity("1") != TINY.identity("2")
+    interrupted(tmp_path / "x.h5", other.identity("1"), other.blocks())
+    with partial(tmp_path / "x.h5", TINY.identity("1")) as finished:
+        assert not finished.has(next(TINY.blocks()))
+        assert len(list((tmp_path / "x.h5.partial").iterdir())) == 2
+    assert leftovers(tmp_path) == []
+
+
+def test_two_builds_of_one_file_do_not_mix(tmp_path):
+    with partial(tmp_path / "x.h5", "a"):
+        with pytest.raises(BusyError, match="another build is writing"), partial(tmp_path / "x.h5", "b"):
+            pass
+        assert (tmp_path / "x.h5.partial" / "a").exists()
+
+
+def test_a_long_row_is_cut_into_blocks_that_cover_it():
+    times = np.arange(2 * BLOCK_LENGTH + 5) / 4
+    group = Group(catalogue.LONG, catalogue.EARTH, {"amplitude": [1.0], "time": times})
+    blocks = list(group.blocks())
+    assert [(block.start, len(block.arguments)) for block in blocks] == [
+        (0, BLOCK_LENGTH),
+        (BLOCK_LENGTH, BLOCK_LENGTH),
+        (2 * BLOCK_LENGTH, 5),
+    ]
+    assert [float(t) for block in blocks for t in block.arguments] == times.tolist()
+
+
+def test_a_build_of_several_blocks_a_row_stores_each_in_its_place(tmp_path, monkeypatch):
+    monkeypatch.setattr("reference.plan.BLOCK_LENGTH", 2)
+    whole = tmp_path / "x.h5"
+    build(TINY, whole)
+    monkeypatch.undo()
+    build(TINY, tmp_path / "y.h5")
+    first, second = load(whole), load(tmp_path / "y.h5")
+    for name in first:
+        assert np.array_equal(first[name].value, second[name].value)
+        assert np.array_equal(first[name].tail, second[name].tail)
+    assert first.fingerprint == second.fingerprint
+
+
+def test_routes_are_counted_over_what_they_serve(tmp_path):
+    build(TINY, tmp_path / "x.h5")
+    attributes = load(tmp_path / "x.h5")["pendulum/long/theta"].attrs
+    assert attributes["quadrature_checked_elements"] == 9
+    assert attributes["taylor_checked_elements"] == 6
+    assert attributes["checked_elements"] == 6
+
+
+def test_a_trajectory_that_a_route_left_out_stops_the_build(tmp_path, monkeypatch):
+    from reference import blocks
+
+    def partly(problem, _row, arguments, route):
+        if route == "taylor" and problem.theta0 == 2:
+            return None
+        return (Agreement(50.0, len(arguments)),) * 2
+
+    monkeypatch.setattr(blocks, "agreement", partly)
+    with pytest.raises(ArithmeticError, match="element 1 was not compared with the taylor route"):
+        build(TINY, tmp_path / "x.h5")
+    assert not (tmp_path / "x.h5").exists()
+
+
+def test_a_disagreement_of_the_routes_stops_the_build_and_names_it(tmp_path, monkeypatch):
+    from reference.problems.pendulum import QuadratureLibration
+
+    original = QuadratureLibration.state
+    monkeypatch.setattr(QuadratureLibration, "state", lambda self, t: tuple(2 * value for value in original(self, t)))
+    with pytest.raises(ArithmeticError, match=r"theta of Pendulum\(theta0=0.5.*quadrature"):
+        build(TINY, tmp_path / "x.h5")
+    assert leftovers(tmp_path) == []
+
+
+def test_a_result_survives_being_stored_and_its_damage_is_seen():
+    result = compute(next(TINY.blocks()))
+    data = result.dumped()
+    again = Result.loaded(data)
+    assert again is not None
+    assert np.array_equal(again.limbs, result.limbs)
+    assert Result.loaded(data[:-1]) is None
+    assert Result.loaded(b"") is None
+
+
+def test_spread_takes_the_first_and_the_last():
+    assert spread(range(1001), 51)[:2] == [0, 20]
+    assert spread(range(1001), 51)[-1] == 1000
+    assert list(spread(range(3), 51)) == [0, 1, 2]
+
+
+@pytest.mark.parametrize(
+    ("out", "word"),
+    [
+        (".", "folder"),
+        ("missing/x.h5", "does not exist"),
+        ("", "empty"),
+        ("/proc/x.h5", "cannot be written"),
+        ("/dev/full", "not a regular file"),
+    ],
+)
+def test_an_output_that_cannot_be_is_refused_before_any_work(tmp_path, monkeypatch, out, word):
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(building, "compute", lambda _block: pytest.fail("work was done"))
+    with pytest.raises(OSError, match=word):
+        build(TINY, out)
+    assert leftovers(tmp_path) == []
+
+
+def test_too_little_space_is_seen_before_any_work(tmp_path, monkeypatch):
+    monkeypatch.setattr(building, "compute", lambda _block: pytest.fail("work was done"))
+    monkeypatch.setattr(building.shutil, "disk_usage", lambda _folder: FreeSpace())
+    with pytest.raises(OSError, match="the disk is full; nothing was left behind"):
+        build(TINY, tmp_path / "x.h5")
+    assert leftovers(tmp_path) == []
+
+
+class FreeSpace:
+    """A disk with ten bytes left."""
+
+    free = 10
+
+
+@pytest.mark.parametrize("limit", [1000, 8000, 20_000])
+def test_a_full_disk_leaves_the_old_file_and_nothing_else(tmp_path, limit):
+    """A limit on the size of files stands for the disk; HDF5 must not crash or complain."""
+    build(TINY, tmp_path / "x.h5")
+    before = {path.name: path.read_bytes() for path in tmp_path.iterdir()}
+    assert len(before["x.h5"]) > 20_000
+    program = textwrap.dedent(f"""
+        import resource, signal
+        from reference import build as building, catalogue
+        from reference.plan import Group, Plan
+        times = [0.0, 1.0, 2.0**20]
+        signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+        resource.setrlimit(resource.RLIMIT_FSIZE, ({limit}, {limit}))
+        plan = Plan("core", (Group(catalogue.LONG, catalogue.EARTH, {{"amplitude": [0.5, 2.0, 3.0], "time": times}}),))
+        try:
+            building.build(plan, "x.h5")
+        except OSError as error:
+            print(error)
+    """)
+    environment = {**os.environ, "PYTHONPATH": str(ROOT)}
+    done = subprocess.run(
+        [sys.executable, "-c", program], cwd=tmp_path, env=environment, capture_output=True, text=True, check=False
+    )
+    assert done.stdout == "'x.h5' was not written: the disk is full; nothing was left behind.\n"
+    assert (done.stderr, done.returncode) == ("", 0)
+    assert {path.name: path.read_bytes() for path in tmp_path.iterdir()} == before
+
+
+def test_between_old_and_new_file_no_checksum_is_wrong(tmp_path, monkeypatch):
+    """Killed after the file is in place and before its checksum is noted, the new file still loads."""
+    out = tmp_path / "x.h5"
+    build(Plan("core", (Group(catalogue.LONG, catalogue.UNIT, TINY.groups[0].inputs),)), out)
+    noted = []
+
+    def kill(target, digest):
+        noted.append(digest)
+        if digest is not None:
+            raise KeyboardInterrupt
+        note_checksum(target, digest)
+
+    monkeypatch.setattr(building, "note_checksum", kill)
+    with pytest.raises(KeyboardInterrupt):
+        build(TINY, out)
+    assert len(noted) == 2
+    assert load(out).parameters["/pendulum/long"]["g"] == 9.81
+
+
+def test_never_more_than_a_few_tasks_wait_for_a_worker():
+    taken = []
+
+    def tasks():
+        for i in range(100):
+            taken.append(i)
+            yield i
+
+    with opened("process", 1) as pool:
+        for done, (task, answer) in enumerate(results(pool, abs, tasks(), 1), 1):
+            assert task == answer
+            assert len(taken) <= done + 4
+    assert len(taken) == 100
+
+
+@pytest.mark.parametrize(
+    ("name", "error", "words"),
+    [
+        ("proces", ValueError, "perhaps process"),
+        ("dask:tcp://127.0.0.1:1", ImportError, "dask.distributed is not installed"),
+        ("mpi", ImportError, "mpi4py is not installed"),
+    ],
+)
+def test_an_executor_that_is_not_there_is_one_sentence(monkeypatch, name, error, words):
+    for module in ("dask.distributed", "mpi4py.futures"):
+        monkeypatch.setitem(sys.modules, module, None)
+    with pytest.raises(error, match=words), opened(name, 2):
+        pass
+
+
+def test_profiles_hold_the_same_groups_and_full_is_a_hundred_times_core():
+    core, full = catalogue.plan("core"), catalogue.plan("full")
+    assert [group.layout.path for group in core.groups] == [group.layout.path for group in full.groups]
+    assert full.size >= 100 * core.size
+    assert core.size < 10_000_000
+    with pytest.raises(ValueError, match="perhaps core"):
+        catalogue.plan("cor")
+
+
+def test_dimensionless_inputs_fit_into_half_precision():
+    group = next(group for group in catalogue.plan().groups if group.layout is catalogue.DIMENSIONLESS)
+    for values in group.inputs.values():
+        assert np.array_equal(values.astype(np.float16).astype(float), values)

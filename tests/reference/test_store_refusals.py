@@ -1,0 +1,261 @@
+"""What loading refuses: whatever is not, byte for byte and object for object, a dataset."""
+
+from __future__ import annotations
+
+import h5py
+import numpy as np
+import pytest
+
+from reference.store import DatasetError, load
+from reference.store.files import note_checksum, sha256
+
+
+def refused(path, *words):
+    with pytest.raises(DatasetError) as caught:
+        load(path)
+    message = str(caught.value)
+    assert "\n" not in message
+    assert message.endswith(".")
+    for word in (str(path), *words):
+        assert word in message
+
+
+@pytest.mark.parametrize("kept", [0, 1, 8, 100, 0.5, 0.999])
+def test_a_truncated_file_is_refused(copy, kept):
+    data = copy.read_bytes()
+    copy.write_bytes(data[: int(kept * len(data)) if isinstance(kept, float) else kept])
+    refused(copy)
+
+
+def test_a_file_that_differs_from_its_checksum_is_refused_before_hdf5_sees_it(copy):
+    note_checksum(copy, sha256(copy))
+    load(copy)
+    data = bytearray(copy.read_bytes())
+    data[len(data) // 2] ^= 1
+    copy.write_bytes(data)
+    refused(copy, "SHA256SUMS")
+
+
+def test_a_damaged_list_of_checksums_is_refused(copy):
+    (copy.parent / "SHA256SUMS").write_text("no checksum\n")
+    with pytest.raises(DatasetError, match=r"SHA256SUMS"):
+        load(copy)
+
+
+def test_no_flipped_bit_changes_a_number_unnoticed(copy):
+    """Without a checksum beside the file: 150 places through the whole file."""
+    before = {name: (variable.value, variable.tail) for name, variable in load(copy).items()}
+    data = copy.read_bytes()
+    noticed = 0
+    for position in range(7, len(data), len(data) // 150):
+        altered = bytearray(data)
+        altered[position] ^= 1 << (position % 8)
+        copy.write_bytes(altered)
+        try:
+            found = load(copy)
+        except DatasetError:
+            noticed += 1
+            continue
+        assert set(found) == set(before)
+        for name, (value, tail) in before.items():
+            assert np.array_equal(found[name].value, value)
+            assert np.array_equal(found[name].tail, tail)
+    assert noticed > 30
+
+
+@pytest.mark.parametrize("content", [b"", b"not a dataset\n", b"\x89HDF\r\n\x1a\n", b"\x89HDF\r\n\x1a\n" + bytes(4096)])
+def test_what_is_no_dataset_is_refused(tmp_path, content):
+    path = tmp_path / "x.h5"
+    path.write_bytes(content)
+    refused(path)
+
+
+def test_a_folder_is_refused(tmp_path):
+    refused(tmp_path, "folder")
+
+
+def test_a_missing_file_is_a_file_not_found_error(tmp_path):
+    with pytest.raises(FileNotFoundError, match=r"does not exist"):
+        load(tmp_path / "missing.h5")
+
+
+def other_schema(file):
+    file.attrs["schema_version"] = np.bytes_("2")
+    return "/", "attribute"
+
+
+def no_schema(file):
+    del file.attrs["schema_version"]
+    return "schema_version", "no attribute"
+
+
+def soft_link(file):
+    group = file["pendulum/libration"]
+    group.move("theta", "theta2")
+    group["theta"] = h5py.SoftLink("/pendulum/libration/theta2")
+    return "/pendulum/libration", "members"
+
+
+def only_soft_link(file):
+    file.move("provenance", "pendulum/libration/theta_tail2")
+    file["provenance"] = h5py.SoftLink("/limb")
+    del file["pendulum/libration/theta_tail2"]
+    return "/provenance", "only hard links"
+
+
+def external_link(file):
+    del file["provenance"]
+    file["provenance"] = h5py.ExternalLink("/etc/passwd", "/")
+    return "/provenance", "only hard links"
+
+
+def alias(file):
+    group = file["pendulum/libration"]
+    del group["omega"]
+    group["omega"] = group["theta"]
+    return "/pendulum/libration/omega", "same object"
+
+
+def replaced(file, **kwargs):
+    group = file["pendulum/libration"]
+    values = group["period"][...]
+    attributes = {name: group["period"].attrs.get_id(name) for name in ("units", "definition", "long_name")}
+    texts = {name: group["period"].attrs[name] for name in attributes}
+    del group["period"]
+    made = group.create_dataset("period", **{"data": values, "chunks": (2,), "fletcher32": True, **kwargs})
+    for name, text in texts.items():
+        made.attrs.create(name, text, dtype=h5py.string_dtype("utf-8", len(text)))
+    made.dims[0].attach_scale(group["amplitude"])
+    return made
+
+
+def gzip(file):
+    replaced(file, compression="gzip")
+    return "/pendulum/libration/period", "filters"
+
+
+def contiguous(file):
+    replaced(file, chunks=None, fletcher32=None)
+    return "/pendulum/libration/period", "chunks"
+
+
+def external_storage(file):
+    replaced(
+        file, chunks=None, fletcher32=None, external=[("/etc/hostname", 0, 16)], data=None, shape=(2,), dtype="<f8"
+    )
+    return "/pendulum/libration/period", "chunks"
+
+
+def single_precision(file):
+    replaced(file, dtype="<f4")
+    return "/pendulum/libration/period", "float64"
+
+
+def huge(file):
+    replaced(file, data=None, shape=(1 << 40,), dtype="<f8", chunks=(1 << 20,))
+    return "/pendulum/libration/period", "impossible shape"
+
+
+def unlimited(file):
+    replaced(file, maxshape=(None,))
+    return "/pendulum/libration/period", "impossible shape"
+
+
+def missing_chunk(file):
+    replaced(file, data=None, shape=(2,), dtype="<f8")
+    return "/pendulum/libration/period", "chunks"
+
+
+def not_finite(file):
+    file["pendulum/libration/period"][0] = np.nan
+    return "/pendulum/libration/period", "finite"
+
+
+def other_number(file):
+    number = file["pendulum/libration/period"][0]
+    file["pendulum/libration/period"][0] = np.nextafter(number, 9.0)
+    return ("fingerprint",)
+
+
+def other_parameter(file):
+    file["pendulum/libration"].attrs.modify("g", np.float64(9.8))
+    return ("fingerprint",)
+
+
+def missing_variable(file):
+    del file["pendulum/libration/energy_tail"]
+    return "/pendulum/libration/energy_tail", "missing"
+
+
+def unknown_variable(file):
+    del file["pendulum/libration/energy_tail"]
+    file["pendulum/libration"].create_dataset("mass", data=[1.0])
+    return "/pendulum/libration", "mass"
+
+
+def unknown_group(file):
+    file.create_group("pendulum/pendulums")
+    return "/pendulum", "pendulums"
+
+
+def group_for_a_variable(file):
+    del file["pendulum/libration/energy"]
+    file.create_group("pendulum/libration/energy")
+    return "/pendulum/libration/energy", "not a dataset"
+
+
+def other_units(file):
+    attributes = file["pendulum/libration/period"].attrs
+    attributes.create("units", b"h", dtype=h5py.string_dtype("utf-8", 1))
+    return "/pendulum/libration/period", "units"
+
+
+def no_scale(file):
+    group = file["pendulum/libration"]
+    group["period"].dims[0].detach_scale(group["amplitude"])
+    return "/pendulum/libration/period", "dimension scales"
+
+
+def variable_length_text(file):
+    file["pendulum"].attrs["note"] = "variable length"
+    return "/pendulum", "note"
+
+
+TAMPERINGS = (
+    other_schema,
+    no_schema,
+    soft_link,
+    only_soft_link,
+    external_link,
+    alias,
+    gzip,
+    contiguous,
+    external_storage,
+    single_precision,
+    huge,
+    unlimited,
+    missing_chunk,
+    not_finite,
+    other_number,
+    other_parameter,
+    missing_variable,
+    unknown_variable,
+    unknown_group,
+    group_for_a_variable,
+    other_units,
+    no_scale,
+    variable_length_text,
+)
+
+
+@pytest.mark.parametrize("tampering", TAMPERINGS, ids=lambda tampering: tampering.__name__)
+def test_what_is_not_of_the_schema_is_refused_by_name(copy, tampering):
+    with h5py.File(copy, "r+", libver=("v110", "v110")) as file:
+        words = tampering(file)
+    refused(copy, *words)
+
+
+def test_another_schema_version_is_refused_with_both_versions_named(copy):
+    with h5py.File(copy, "r+", libver=("v110", "v110")) as file:
+        file.attrs.create("schema_version", b"99", dtype=h5py.string_dtype("utf-8", 2))
+    refused(copy, "'99'", "'1'")

@@ -1,0 +1,93 @@
+"""Verifying: the proofs hold for a sound file and fail for one wrong bit that every checksum agrees with."""
+
+from __future__ import annotations
+
+import h5py
+import numpy as np
+import pytest
+
+from reference import catalogue
+from reference.build import build
+from reference.certify import DisagreementError
+from reference.plan import Group, Plan
+from reference.store import DatasetError
+from reference.store.content import fingerprint
+from reference.verify import verify
+
+TINY = Plan(
+    "core",
+    (Group(catalogue.DIMENSIONLESS, catalogue.UNIT, {"amplitude": [0.5, 2.0], "time": np.arange(3) / 4}),),
+)
+
+
+@pytest.fixture
+def built(tmp_path):
+    path = tmp_path / "tiny.h5"
+    build(TINY, path)
+    return path
+
+
+def forge(path, change):
+    """Change a file and put every checksum right again, as a forger would."""
+    with h5py.File(path, "r+", libver=("v110", "v110")) as file:
+        change(file)
+        text = fingerprint(file).encode()
+        file.attrs.create("fingerprint", text, dtype=h5py.string_dtype("utf-8", len(text)))
+    (path.parent / "SHA256SUMS").unlink()
+
+
+def test_a_sound_file_is_proven_variable_by_variable(built):
+    proofs = verify(built)
+    assert [proof.name for proof in proofs] == [
+        f"pendulum/dimensionless/{name}" for name in ("theta", "omega", "period")
+    ]
+    assert [proof.elements for proof in proofs] == [6, 6, 2]
+    assert all(proof.holds for proof in proofs)
+    assert all(min(proof.digits[route] for route in ("taylor", "quadrature")) >= 45 for proof in proofs)
+    assert str(proofs[0]).startswith("proven  pendulum/dimensionless/theta: 6 elements")
+
+
+@pytest.mark.parametrize(("name", "limb"), [("omega", None), ("omega_tail", 0), ("omega_tail", 1)])
+def test_one_unit_in_the_last_place_of_any_limb_is_found(built, name, limb):
+    def change(file):
+        data = file[f"pendulum/dimensionless/{name}"]
+        at = (1, 2) if limb is None else (1, 2, limb)
+        data[at] = np.nextafter(data[at], np.inf)
+
+    forge(built, change)
+    theta, omega, period = verify(built, jobs=1)
+    assert (theta.holds, omega.holds, period.holds) == (True, False, True)
+    assert omega.wrong == 1
+    assert "(1, 2)" in omega.first
+    assert str(omega).startswith("FAILED")
+
+
+def test_another_input_fails_the_values_that_belong_to_it(built):
+    def change(file):
+        file["pendulum/dimensionless/amplitude"][0] = np.nextafter(0.5, 1)
+
+    forge(built, change)
+    assert [proof.wrong for proof in verify(built)] == [3, 2, 1]
+
+
+def test_an_input_that_is_no_problem_is_refused(built):
+    def change(file):
+        file["pendulum/dimensionless/amplitude"][0] = 4.0
+
+    forge(built, change)
+    with pytest.raises(DatasetError, match=r"element 0 is no problem: theta0 is 4\.0"):
+        verify(built)
+
+
+def test_a_route_that_disagrees_fails_its_variables(built, monkeypatch):
+    from reference import verify as verifying
+
+    def disagree(block, route):
+        raise DisagreementError(f"{block.row.name} differs by {route}.")
+
+    monkeypatch.setattr(verifying, "compare", disagree)
+    assert [proof.first for proof in verify(built)] == [
+        "state differs by taylor.",
+        "state differs by taylor.",
+        "period differs by taylor.",
+    ]
