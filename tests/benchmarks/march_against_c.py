@@ -12,14 +12,17 @@ import tempfile
 import time
 from pathlib import Path
 from statistics import median
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from compare.method import Method
 from compare.methods import find
 from compare.precision import precision
 from compare.trace import compile_block
 from reference import Pendulum
+
+if TYPE_CHECKING:
+    from compare.method import Method
 
 C_SOURCE = r"""
 #include <math.h>
@@ -98,7 +101,8 @@ def main() -> None:
     with tempfile.TemporaryDirectory() as folder:
         library = compiled_c(Path(folder))
         print(
-            f"{'method':10s} {'C ns/step':>10s} {'lanes ns/step':>14s} {'ratio':>7s}   (median of {ROUNDS} pairs, one thread)"
+            f"{'method':10s} {'C ns/step':>10s} {'lanes ns/step':>14s} {'ratio':>7s}   "
+            f"(median of {ROUNDS} pairs, one thread)"
         )
         for name in LANES:
             lanes, loop = Lanes(find(name)), getattr(library, name)
