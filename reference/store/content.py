@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import h5py
 import numpy as np
+from h5py import h5o
 
 from reference.store.errors import DatasetError
 from reference.store.fingerprint import Digest, pieces
@@ -47,25 +48,32 @@ def parameters_of(group: h5py.Group) -> dict[str, float]:
     return found
 
 
-def dimensions(dataset: h5py.Dataset) -> tuple[str, ...]:
-    """The names of a dataset's axes; a scale's own is its name.
+def dimensions(file: h5py.File) -> dict[str, tuple[str, ...]]:
+    """The names of the axes of each dataset by path; a scale's own is its name.
+
+    They are read from the scales, whose lists of users are checksummed.  The users' lists of scales, which other
+    readers follow, are in a part of HDF5 files that has no checksum, and one flipped bit there can make HDF5 loop.
 
     Raises:
         DatasetError: an axis has not exactly one scale.
     """
-    if dataset.is_scale:
-        return (dataset.name.rpartition("/")[2],)
-    names = []
-    for i, axis in enumerate(dataset.dims):
-        if len(axis) != 1:
-            raise DatasetError(
-                f"'{dataset.file.filename}': axis {i} of {dataset.name} has {len(axis)} dimension scales."
-            )
-        name = axis[0].name
-        if name is None:
-            raise DatasetError(f"'{dataset.file.filename}': the scale of axis {i} of {dataset.name} has no name.")
-        names.append(name.rpartition("/")[2])
-    return tuple(names)
+    datasets = {path: found for path, found in _objects(file) if isinstance(found, h5py.Dataset)}
+    axes: dict[str, list[list[str]]] = {path: [[] for _ in found.shape] for path, found in datasets.items()}
+    paths = {h5o.get_info(found.id).addr: path for path, found in datasets.items()}
+    for path, scale in datasets.items():
+        if not scale.is_scale:
+            continue
+        name = path.rpartition("/")[2]
+        axes[path] = [[name]]
+        for reference, axis in scale.attrs.get("REFERENCE_LIST", ()):
+            user = paths.get(h5o.get_info(file[reference].id).addr)
+            if user is None or axis >= len(axes[user]):
+                raise DatasetError(f"'{file.filename}': {path} is the scale of an axis that is not there.")
+            axes[user][axis].append(name)
+    for path, names in axes.items():
+        if any(len(name) != 1 for name in names):
+            raise DatasetError(f"'{file.filename}': an axis of {path} has not exactly one of the dimension scales.")
+    return {path: tuple(name for (name,) in names) for path, names in axes.items()}
 
 
 def fingerprint(file: h5py.File) -> str:
@@ -75,10 +83,11 @@ def fingerprint(file: h5py.File) -> str:
         DatasetError: a number is not finite, or what the fingerprint needs is not there.
     """
     digest = Digest()
+    dims = dimensions(file)
     for path, found in sorted(_objects(file), key=lambda pair: pair[0]):
         if isinstance(found, h5py.Dataset):
             described = text_attribute(found, "units"), text_attribute(found, "definition")
-            digest.dataset(path, found.shape, dimensions(found), described, _parts(found), found.dtype)
+            digest.dataset(path, found.shape, dims[path], described, _parts(found), found.dtype)
         elif "parameters" in found.attrs:
             digest.group(path, parameters_of(found))
     return digest.hexdigest()

@@ -55,6 +55,7 @@ class Inspection:
     def __init__(self, file: h5py.File, size: int) -> None:
         self._file, self._size = file, size
         self._addresses: dict[int, str] = {}
+        self._dims: dict[str, tuple[str, ...]] = {}
 
     def _refuse(self, name: str, why: str) -> DatasetError:
         return DatasetError(f"'{self._file.filename}': {name} {why}.")
@@ -74,6 +75,9 @@ class Inspection:
         self._names(provenance, set())
         if not found:
             raise self._refuse("/", "holds no group of the schema")
+        for path, names in dimensions(self._file).items():
+            if names != self._dims[path]:
+                raise self._refuse(path, f"has not the dimension scales {', '.join(self._dims[path])}")
         return tuple(layout for layout in LAYOUTS if layout.path in found)
 
     def _tree(self, group: h5py.Group, paths: dict[str, Layout], besides: set[str]) -> set[str]:
@@ -138,8 +142,9 @@ class Inspection:
         shape = tuple(lengths.get(name, -1) for name in array.dims)
         if dataset.shape != shape:
             raise self._refuse(dataset.name, f"has shape {dataset.shape} where its coordinates make {shape}")
-        if bool(dataset.is_scale) != array.is_scale or dimensions(dataset) != array.dims:
-            raise self._refuse(dataset.name, f"has not the dimension scales {', '.join(array.dims)}")
+        self._dims[dataset.name] = array.dims
+        if bool(dataset.is_scale) != array.is_scale:
+            raise self._refuse(dataset.name, f"is {'not ' if array.is_scale else ''}a dimension scale")
         for name in ("units", "definition", "long_name"):
             text = text_attribute(dataset, name)
             if name == "units" and text != array.attributes[name]:

@@ -63,6 +63,18 @@ def test_no_flipped_bit_changes_a_number_unnoticed(copy):
     assert noticed > 30
 
 
+def test_no_flipped_bit_in_the_lists_of_scales_makes_loading_hang(copy):
+    """HDF5 keeps these lists without a checksum, and loops on some flips; loading must not follow them."""
+    data = copy.read_bytes()
+    start = data.index(b"GCOL")
+    fingerprint = load(copy).fingerprint
+    for position in range(start, start + 640, 8):
+        altered = bytearray(data)
+        altered[position] ^= 1 << 5
+        copy.write_bytes(altered)
+        assert load(copy).fingerprint == fingerprint
+
+
 @pytest.mark.parametrize("content", [b"", b"not a dataset\n", b"\x89HDF\r\n\x1a\n", b"\x89HDF\r\n\x1a\n" + bytes(4096)])
 def test_what_is_no_dataset_is_refused(tmp_path, content):
     path = tmp_path / "x.h5"
