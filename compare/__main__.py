@@ -11,6 +11,7 @@ import contextlib
 import os
 import shutil
 import sys
+from importlib import import_module
 from typing import TYPE_CHECKING
 
 from compare.arguments import Request, parse
@@ -68,7 +69,10 @@ def _study(request: Request, progress: Callable[[str], None] | None) -> Study:
     from reference.executors import opened
 
     steps = sum(request.options.get("n", pendulum.DEFAULT_N))
-    with opened("process", (os.cpu_count() or 1) if steps >= WORTH_PROCESSES else 1) as executor:
+    jobs = (os.cpu_count() or 1) if steps >= WORTH_PROCESSES else 1
+    with opened("process", jobs) as executor:
+        for _ in range(jobs):
+            executor.submit(import_module, pendulum.__name__)  # they import while the truth is computed here
         return pendulum.study(**request.options, traces=request.plots, progress=progress, executor=executor)
 
 

@@ -33,6 +33,8 @@ __all__ = ["Lane", "March", "StartInvariant", "iterations_for", "march", "sample
 LONG_BLOCKS, SHORT_BLOCK = (64, 32, 16), 8
 LONG_MARCH = 8192
 BLOCK_EVALUATIONS, MIN_BLOCK = 256, 8
+INLINE_SINE = 2 * 10**9
+"""Evaluations from which the sine is compiled into the march: the seconds that it takes are then won back."""
 MAX_CONTRACTION = 0.5
 ITERATIONS = (6, 8, 12, 16, 24, 36, 54, 80, 120, 180, 270)
 """Counts of fixed-point iterations: few, for each is compiled, and less than doubling, so that work grows with N."""
@@ -149,12 +151,17 @@ class _Group:
         self.method, self.lanes, self.fmt, self.iterations = method, lanes, fmt, iterations
         problem = lanes[0].problem
         self.every = grain == 1
-        self.steps = _block_steps(SHORT_BLOCK if self.every else grain, method.evaluations(iterations)[0])
-        self.batch = min(fmt.lanes, 1 << (max(len(lanes), 8) - 1).bit_length())
+        evaluations = method.evaluations(iterations)[0]
+        inline = fmt.type is float and sum(lane.n for lane in lanes) * evaluations >= INLINE_SINE
+        self.steps = _block_steps(SHORT_BLOCK if self.every else grain, evaluations * (4 if inline else 1))
+        lasting = sum(8 * lane.n >= lanes[0].n for lane in lanes)
+        self.batch = min(fmt.lanes, 1 << (max(lasting, 8) - 1).bit_length())
         self.dimension = len(problem.state_names)
         self.ends = np.array([lane.n for lane in lanes])
         record: Record = "every" if self.every else "last"
-        self.block: Block = compile_block(method, problem, fmt, self.steps, record, self.batch, iterations)
+        self.block: Block = compile_block(
+            method, problem, fmt, self.steps, record, self.batch, iterations, inline_sine=inline
+        )
         self.states = [fmt.zeros((len(lane.samples), self.dimension)) for lane in lanes]
         self.maxima = np.zeros((len(lanes), 2))
 

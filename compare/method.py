@@ -7,8 +7,9 @@ run on floats, on NumPy arrays of any type, and on heyoka's symbols, which compi
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, reduce
 from itertools import pairwise
+from operator import add
 from typing import TYPE_CHECKING, Any, Protocol, TypeAlias
 
 from compare.algebraic import Coefficient, Q, enclose
@@ -118,18 +119,16 @@ class Tableau:
 
 
 def _advance(system: System, y: State, h: Any, weights: Sequence[Coefficient], slopes: Sequence[State]) -> State:
-    """y + h sum_j weights_j slopes_j."""
-    terms = [(weight, slope) for weight, slope in zip(weights, slopes, strict=False) if weight != 0]
-    if not terms:
+    """y + sum_j (h weights_j) slopes_j."""
+    sizes = [(_part(system, weight, h), slope) for weight, slope in zip(weights, slopes, strict=False) if weight != 0]
+    if not sizes:
         return y
-    sums = []
-    for i, component in enumerate(y):
-        total = None
-        for weight, slope in terms:
-            term = slope[i] if weight == 1 else system.number(weight) * slope[i]
-            total = term if total is None else total + term
-        sums.append(component + h * total)
-    return tuple(sums)
+    return tuple(component + reduce(add, (size * slope[i] for size, slope in sizes)) for i, component in enumerate(y))
+
+
+def _part(system: System, weight: Coefficient, h: Any) -> Any:
+    """weight h: the same in every step, so that the compiler takes it out of them all."""
+    return h if weight == 1 else system.number(weight) * h
 
 
 @dataclass(frozen=True)
@@ -177,7 +176,7 @@ class Splitting:
     def step(self, system: System, y: State, h: Any, iterations: int = 0) -> tuple[State, State]:  # noqa: ARG002
         positions, momenta = y[: system.positions], y[system.positions :]
         for kind, weight in self.flows:
-            dt = h if weight == 1 else system.number(weight) * h
+            dt = _part(system, weight, h)
             if kind == "kick":
                 momenta = tuple(p + dt * f for p, f in zip(momenta, system.force(positions), strict=True))
             else:

@@ -13,6 +13,7 @@ import heyoka as hy
 import numpy as np
 
 from compare.algebraic import Q
+from compare.sine import LaneArithmetic
 from reference.arithmetic import NUMPY, Heyoka
 
 if TYPE_CHECKING:
@@ -112,17 +113,20 @@ def compile_block(
     iterations: int = 0,
     *,
     drift: bool = True,
+    inline_sine: bool = False,
 ) -> Block:
     """Trace ``steps`` steps of a method and compile them.
 
     ``iterations`` is for implicit methods; without ``drift`` the invariant is not followed and its row stays as it was.
+    ``inline_sine``, for doubles, marches faster and compiles slower.
 
     Raises:
         TraceError: the compiled block does not agree with the plain steps at random points.
     """
     y = _variables(problem.state_names)
     symbols = {name: hy.par[i + 2] for i, name in enumerate(problem.parameters)}
-    system = BoundSystem(problem, Heyoka(fmt.number), symbols, fmt)
+    arithmetic = (LaneArithmetic if inline_sine else Heyoka)(fmt.number)
+    system = BoundSystem(problem, arithmetic, symbols, fmt)
     maxima = _variables(("drift", "change"))
     every: list[Any] = []
     state, largest = y, maxima

@@ -54,7 +54,7 @@ void verlet(double *state, double h, double g, double l, long n) {
 ROUNDS = 15
 C_STEPS = 400_000
 LANES = {"rk4": 2048, "verlet": 4096}
-STEPS, BATCH = 32, 32
+STEPS, BATCH = 16, 32
 LANE_STEPS = 8_000_000
 
 
@@ -82,7 +82,7 @@ class Lanes:
 
     def __init__(self, method: Method) -> None:
         fmt, problem, count = precision("float64"), Pendulum(1.0), LANES[method.name]
-        self.block = compile_block(method, problem, fmt, STEPS, "last", BATCH, 0, drift=False)
+        self.block = compile_block(method, problem, fmt, STEPS, "last", BATCH, 0, drift=False, inline_sine=True)
         self.lanes = np.zeros((4, count))
         self.lanes[0] = np.linspace(0.1, 3.0, count)
         self.parameters = np.array([[1e-5], [0.0], [9.81], [1.0]]) * np.ones(count)

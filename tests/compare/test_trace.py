@@ -41,6 +41,17 @@ def test_a_block_gives_the_plain_steps(method: Any, fmt: Precision) -> None:
     assert np.max(gap) < 200 * fmt.epsilon
 
 
+def test_a_block_with_its_sine_inlined_is_the_same_block() -> None:
+    lanes, parameters = lanes_of(FLOAT64, 8)
+    outs = []
+    for inline in (False, True):
+        block = compile_block(find("rk4"), PENDULUM, FLOAT64, 16, "every", 8, inline_sine=inline)
+        outs.append(FLOAT64.zeros((block.out_rows(4), 8)))
+        block(lanes, parameters, outs[-1])
+    assert not np.array_equal(outs[0], outs[1])
+    np.testing.assert_allclose(outs[0], outs[1], rtol=0, atol=1e-14)
+
+
 def test_the_last_state_and_the_maxima_are_those_of_every_step() -> None:
     lanes, parameters = lanes_of(FLOAT64, 8)
     every = compile_block(find("rk4"), PENDULUM, FLOAT64, 16, "every", 8)

@@ -31,6 +31,8 @@ TAYLOR_RADIANS = 4000
 """The Taylor route serves times up to omega0 t = TAYLOR_RADIANS: beyond, its work would grow without bound."""
 TAYLOR_BITS = 1024
 """The Taylor route serves amplitudes that need at most this working precision."""
+ROUTE_BITS = 8192
+"""No route but the enclosure serves what needs more working precision than this."""
 MAX_EVENTS = 100_000
 
 
@@ -139,14 +141,21 @@ class Pendulum(SeparableProblem):
         self, route: str, row: str, arguments: Sequence[Any], digits: int
     ) -> list[tuple[Fraction, ...]] | None:
         bits = int(digits * 3.33) + 2 * self.working_bits(arguments) + 30
+        if bits > ROUTE_BITS:
+            return None
         if route == "quadrature":
             return quadrature.rows(lambda: QuadratureLibration(MPMATH, *self._numbers()), row, arguments, bits)
-        times = [t for t in arguments if isinstance(t, Fraction)]
-        too_long = any(t < 0 or t * t * self.g / self.length > TAYLOR_RADIANS**2 for t in times)
-        if row in NOT_BY_TAYLOR or too_long or bits > TAYLOR_BITS:
+        if row in NOT_BY_TAYLOR or bits > TAYLOR_BITS or not self._within_taylor(row, arguments):
             return None
         with mp.workprec(bits):
             return TaylorLibration(self, bits).rows(row, arguments)
+
+    def _within_taylor(self, row: str, arguments: Sequence[Any]) -> bool:
+        """Whether every argument lies in 0 <= omega0 t <= TAYLOR_RADIANS, the last event included."""
+        if self.row(row).over == "index":
+            arguments = [Fraction(float(self.period())) * (index + 1) for index in arguments]
+        times = [t for t in arguments if isinstance(t, Fraction)]
+        return all(t >= 0 and t * t * self.g / self.length <= TAYLOR_RADIANS**2 for t in times)
 
     def _numbers(self) -> tuple[Any, ...]:
         return MPMATH.number(self.theta0), MPMATH.number(self.g), MPMATH.number(self.length)
