@@ -66,12 +66,13 @@ def _pendulum(request: Request) -> str:
 
 def _study(request: Request, progress: Callable[[str], None] | None) -> Study:
     from compare.studies import pendulum
-    from reference.executors import opened
+    from reference.executors import processes
 
-    steps = sum(request.options.get("n", pendulum.DEFAULT_N))
-    jobs = (os.cpu_count() or 1) if steps >= WORTH_PROCESSES else 1
-    with opened("process", jobs) as executor:
-        for _ in range(jobs):
+    others = (os.cpu_count() or 1) - 1
+    if not others or sum(request.options.get("n", pendulum.DEFAULT_N)) < WORTH_PROCESSES:
+        return pendulum.study(**request.options, traces=request.plots, progress=progress)
+    with processes(others) as executor:
+        for _ in range(others):
             executor.submit(import_module, pendulum.__name__)  # they import while the truth is computed here
         return pendulum.study(**request.options, traces=request.plots, progress=progress, executor=executor)
 

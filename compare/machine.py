@@ -17,7 +17,7 @@ __all__ = ["COLUMNS", "csv_text", "json_text", "rows"]
 
 COLUMNS = {
     "error_vs_n": ("method", "n", "h", "theta0", "max_error", "end_error", "local_order", "floor", "evaluations"),
-    "order": ("method", "theta0", "declared_order", "fitted_order", "interval", "cells_used", "n_range"),
+    "order": ("method", "theta0", "declared_order", "fitted_order", "spread", "cells_used", "n_range"),
     "energy_drift": (
         "method",
         "n",

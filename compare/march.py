@@ -33,7 +33,7 @@ __all__ = ["Lane", "March", "StartInvariant", "iterations_for", "march", "sample
 LONG_BLOCKS, SHORT_BLOCK = (64, 32, 16), 8
 LONG_MARCH = 8192
 BLOCK_EVALUATIONS, MIN_BLOCK = 256, 8
-INLINE_SINE = 2 * 10**9
+INLINE_SINE = 10**9
 """Evaluations from which the sine is compiled into the march: the seconds that it takes are then won back."""
 MAX_CONTRACTION = 0.5
 ITERATIONS = (6, 8, 12, 16, 24, 36, 54, 80, 120, 180, 270)

@@ -7,10 +7,10 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any, Protocol
 
-import heyoka as hy
 import numpy as np
 
 from reference.arithmetic import BALL
+from reference.compiler import hy
 from reference.limbs import exact_decimal, interval, rounded, ziv
 from reference.names import unknown
 
@@ -104,6 +104,11 @@ class Precision:
         return wide.astype(np.float64)
 
     @property
+    def exact_epsilon(self) -> Fraction:
+        """The spacing of the numbers at 1, exactly."""
+        return Fraction(1, 1 << (self.bits - 1))
+
+    @property
     def epsilon(self) -> float:
         """The spacing of the numbers at 1."""
         return math.ldexp(1.0, 1 - self.bits)
@@ -132,9 +137,9 @@ def precision(name: str) -> Precision:
     for known in FORMATS:
         if known.name == name:
             return known
-    kind, _, bits = name.partition(":")
+    kind, _, bits = str(name).partition(":")
     if kind == "mp" and bits.isdecimal() and MIN_BITS <= int(bits) <= MAX_BITS:
         return Precision(name, int(bits), hy.real, 1)
     raise ValueError(
-        unknown("precision", name, [*(known.name for known in FORMATS), f"mp:{MIN_BITS} to mp:{MAX_BITS}"])
+        unknown("precision", str(name), [*(known.name for known in FORMATS), f"mp:{MIN_BITS} to mp:{MAX_BITS}"])
     )

@@ -41,14 +41,14 @@ class FittedOrder:
 
     Attributes:
         n_range: the smallest and largest N used, or None.
-        interval: half-width of the 95 % interval of the slope, or None.
+        spread: the largest distance of a local slope in the range from the fitted one, or None.
     """
 
     method: str
     theta0: float
     declared_order: int
     fitted_order: float | None
-    interval: float | None
+    spread: float | None
     cells_used: int
     n_range: tuple[int, int] | None
 

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, lru_cache
 from statistics import median
 from typing import TYPE_CHECKING
 
@@ -30,7 +30,7 @@ __all__ = ["SAMPLES", "Course", "fit_order", "relative_drift", "score_method"]
 
 SAMPLES = 128
 FLOOR_FACTOR = 10
-SLOPE_TOLERANCE = 0.1
+SLOPE_TOLERANCE = 0.05
 MIN_CELLS = 3
 
 
@@ -58,6 +58,11 @@ class Course:
             )
         return h
 
+    def __post_init__(self) -> None:
+        for name, value in zip(self.problem.state_names, self.problem.start, strict=True):
+            if value and not self.fmt.number(value):
+                raise ValueError(f"{name} starts at {float(value)}, which {self.fmt.name} cannot hold.")
+
     @cached_property
     def steps(self) -> tuple[int, ...]:
         """The steps after which the state is compared."""
@@ -71,12 +76,23 @@ class Course:
     @cached_property
     def truth(self) -> np.ndarray:
         """The proven state at the times: float64 limbs [samples, state, limbs], enough for the format."""
-        return self.problem.state(self.times, limbs=max(2, self.fmt.bits // 53 + 2))
+        return proven(self.problem, tuple(self.times), max(2, self.fmt.bits // 53 + 2))
 
     @cached_property
     def neighbour(self) -> Course:
         """The same course from a start close by, whose truncation error is the same and whose rounding is not."""
-        return replace(self, problem=self.problem.neighbour(self.fmt.round))
+        return replace(self, problem=self.problem.neighbour(self.fmt.round, self.fmt.exact_epsilon))
+
+    @property
+    def roundings(self) -> float:
+        """How far N roundings of the first component can lead, carried along as the exact motion carries them.
+
+        The exact motion's growth is that of the distance between this course and its neighbour.
+        """
+        here, there = self.truth[:, 0, 0], self.neighbour.truth[:, 0, 0]
+        start = abs(float(self.problem.start[0] - self.neighbour.problem.start[0]))
+        growth = 1 + float(np.max(np.abs(here - there))) / start
+        return 8 * self.n * self.fmt.epsilon * growth * float(np.max(np.abs(here)))
 
     @property
     def lane(self) -> Lane:
@@ -88,11 +104,18 @@ class Course:
         return self.fmt.difference(result.states, self.truth)
 
 
+@lru_cache(maxsize=64)
+def proven(problem: Problem, times: tuple[Fraction, ...], limbs: int) -> np.ndarray:
+    """``problem.state``, kept: numbers of steps that are powers of two share their sample times."""
+    return problem.state(times, limbs=limbs)
+
+
 def score_method(method: Method, courses: Sequence[Course], fmt: Precision) -> tuple[list[Cell], list[Drift]]:
     """March a method over every course and score it: one Cell and one Drift a course, in the order given.
 
     Each course is marched beside its neighbour: their errors differ by rounding alone, as the method and the problem
-    carry it along.  A cell within FLOOR_FACTOR of that difference is marked as floor, and so is every finer one.
+    carry it along.  A cell within FLOOR_FACTOR of that difference is marked as floor, and so is every finer one; but a
+    difference that N roundings cannot account for is of a step too large, not of rounding.
     """
     # A march that overflows is scored as what it is, infinite or not a number; NumPy need not warn of it besides.
     with np.errstate(over="ignore", invalid="ignore"):
@@ -103,10 +126,12 @@ def _scores(method: Method, courses: Sequence[Course], fmt: Precision) -> tuple[
     marches = march(method, [lane for course in courses for lane in (course.lane, course.neighbour.lane)], fmt)
     found, neighbours = marches[::2], marches[1::2]
     cells: list[Cell] = []
+    before: Course | None = None
     for course, result, other in zip(courses, found, neighbours, strict=True):
-        previous = cells[-1] if cells and cells[-1].theta0 == _amplitude(course.problem) else None
+        previous = cells[-1] if before is not None and before.problem == course.problem else None
         noise = float(np.max(np.abs(course.errors(result) - course.neighbour.errors(other))[:, 0]))
         cells.append(_cell(method, course, result, noise, previous))
+        before = course
     drifts = [_drift(method, course, result) for course, result in zip(courses, found, strict=True)]
     return cells, drifts
 
@@ -129,7 +154,8 @@ def _cell(method: Method, course: Course, result: March, noise: float, previous:
         max_error=largest,
         end_error=float(errors[-1]),
         local_order=slope,
-        floor=largest <= FLOOR_FACTOR * noise or (previous is not None and previous.floor),
+        floor=(largest <= FLOOR_FACTOR * noise and noise <= course.roundings)
+        or (previous is not None and previous.floor),
         evaluations=result.evaluations,
     )
 
@@ -184,15 +210,16 @@ def fit_order(method: Method, cells: Sequence[Cell]) -> FittedOrder:
     slopes = [(y[i + 1] - y[i]) / (x[i + 1] - x[i]) for i in range(len(usable) - 1)]
     first, last = _longest_run(slopes)
     chosen = usable[first:last] if last - first >= MIN_CELLS else []
-    fitted = interval = None
+    fitted = spread = None
     if chosen:
-        fitted, interval = slope_with_interval(np.array(x[first:last]), np.array(y[first:last]))
+        fitted, _ = slope_with_interval(np.array(x[first:last]), np.array(y[first:last]))
+        spread = max(abs(slope - fitted) for slope in slopes[first : last - 1])
     return FittedOrder(
         method=method.name,
         theta0=cells[0].theta0,
         declared_order=method.order,
         fitted_order=fitted,
-        interval=interval,
+        spread=spread,
         cells_used=len(chosen),
         n_range=(chosen[0].n, chosen[-1].n) if chosen else None,
     )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import partial
 from typing import TYPE_CHECKING, Any
@@ -12,6 +13,7 @@ from compare.methods import METHODS, find
 from compare.precision import precision as find_precision
 from compare.score import Course, fit_order, score_method
 from reference.exact import as_number, exact
+from reference.problem import Problem
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -21,9 +23,8 @@ if TYPE_CHECKING:
     from compare.method import Method
     from compare.precision import Precision
     from compare.records import Cell, Drift, FittedOrder
-    from reference.problem import Problem
 
-__all__ = ["DEFAULT_N", "Scored", "energy_drift", "error_vs_n", "score_all"]
+__all__ = ["DEFAULT_N", "Scored", "energy_drift", "error_vs_n", "score_all", "some"]
 
 DEFAULT_N = tuple(2**k for k in range(7, 21))
 MAX_N = 10**10
@@ -82,9 +83,12 @@ def score_all(
 
     Raises:
         ValueError: an argument is outside its range, or a name unknown.
+        TypeError: an argument is of the wrong kind.
     """
+    if not all(isinstance(problem, Problem) for problem in problems):
+        raise TypeError(f"problems holds a {type(problems[0]).__name__}; problems such as Pendulum(1.0) are accepted.")
     fmt = find_precision(precision)
-    chosen = METHODS if methods is None else tuple(dict.fromkeys(find(name) for name in _some(methods, "methods")))
+    chosen = METHODS if methods is None else tuple(dict.fromkeys(find(name) for name in some(methods, "methods")))
     end = exact(t_end, "t_end")
     if end <= 0:
         raise ValueError(f"t_end is {as_number(end)}; a positive number is accepted.")
@@ -97,14 +101,23 @@ def score_all(
     return Scored(chosen, tuple(problems), end, fmt, cells, drifts)
 
 
-def _some(values: Sequence[Any], name: str) -> Sequence[Any]:
-    if not len(values):
+def some(values: Any, name: str) -> list[Any]:
+    """``values`` as a list, if it is a sequence with something in it.
+
+    Raises:
+        TypeError: it is a string or one value.
+        ValueError: it is empty.
+    """
+    if isinstance(values, (str, bytes)) or not isinstance(values, Iterable):
+        raise TypeError(f"{name} is {values!r}; a sequence such as [{values!r}] is accepted.")
+    found = list(values)
+    if not found:
         raise ValueError(f"{name} is empty; at least one is accepted.")
-    return values
+    return found
 
 
 def _step_counts(n: Sequence[int]) -> list[int]:
-    for count in _some(n, "n"):
+    for count in some(n, "n"):
         if isinstance(count, bool) or not isinstance(count, (int, np.integer)) or not 0 < count <= MAX_N:
             raise ValueError(f"n is {count!r}; a positive integer up to {MAX_N} is accepted.")
     return sorted({int(count) for count in n})
@@ -119,14 +132,23 @@ def _in_order_of_work(
 ) -> dict[str, tuple[list[Cell], list[Drift]]]:
     """Each method's cells and drifts, the longest marches begun first.
 
-    Processes, not threads: a call of a compiled block is so short that threads would spend their time handing over
-    the interpreter's lock.
+    This process takes from the end of the queue what the executor has not begun.  Processes, not threads: a call of a
+    compiled block is so short that threads would spend their time handing over the interpreter's lock.
     """
+    task = partial(score_method, courses=courses, fmt=fmt)
     by_work = sorted(methods, key=lambda method: (method.family != "implicit", -method.evaluations(1)[0]))
-    found = (map if executor is None else executor.map)(partial(score_method, courses=courses, fmt=fmt), by_work)
+    queued = {method.name: executor.submit(task, method) for method in by_work} if executor is not None else {}
     scores: dict[str, tuple[list[Cell], list[Drift]]] = {}
-    for method, result in zip(by_work, found, strict=True):
+
+    def keep(method: Method, result: tuple[list[Cell], list[Drift]]) -> None:
         scores[method.name] = result
         if progress is not None:
             progress(method.name)
+
+    for method in reversed(by_work):
+        if not queued or queued[method.name].cancel():
+            keep(method, task(method))
+    for method in by_work:
+        if method.name not in scores:
+            keep(method, queued[method.name].result())
     return scores

@@ -14,10 +14,10 @@ from __future__ import annotations
 from functools import cache
 from typing import Any
 
-import heyoka as hy
 from mpmath import mp
 
 from reference.arithmetic import Heyoka
+from reference.compiler import hy
 
 __all__ = ["LaneArithmetic", "sine"]
 

@@ -26,6 +26,7 @@ FORMATS = ("text", "markdown", "csv", "latex", "json")
 
 _SUFFIX = {"text": "txt", "markdown": "md", "latex": "tex", "json": "json"}
 _PAGE_WIDTH = {"markdown": 100, "latex": 72}
+_NAN_NOTE = "nan means overflow, or an implicit method whose stages do not converge at this h"
 _FLOOR_NOTE = "* means rounding, not order: within ten times the rounding floor of the engine"
 _UNITS = {"theta0": "rad", "g": "m/s^2", "length": "m", "t_end": "s"}
 
@@ -117,7 +118,14 @@ def _error_section(cells: Sequence[Cell], declared: dict[str, int], at: str, wid
         name=f"error-vs-n-{_slug(at)}",
         title=f"Error against N, {at}: largest |theta - exact| over the sample times, in rad, and local order",
         grids=_split(build, _methods(cells), declared, width),
-        note=_FLOOR_NOTE if any(cell.floor for cell in cells) else "",
+        note="\n".join(
+            note
+            for note, applies in (
+                (_FLOOR_NOTE, any(cell.floor for cell in cells)),
+                (_NAN_NOTE, any(math.isnan(cell.max_error) for cell in cells)),
+            )
+            if applies
+        ),
     )
 
 
@@ -147,7 +155,7 @@ def _order_section(fits: Sequence[FittedOrder], at: str) -> Section:
     )
     return Section(
         name=f"order-{_slug(at)}",
-        title=f"Order, {at}: slope of log(error) against log(h) over the asymptotic range, with its 95 % interval",
+        title=f"Order, {at}: slope of log(error) against log(h) over the asymptotic range, ± spread of local slopes",
         grids=(Grid(columns, rows),),
         note="- means fewer than three cells in the asymptotic range"
         if any(f.fitted_order is None for f in fits)
@@ -269,6 +277,6 @@ def _local_order(order: float | None) -> str:
 def _fitted(fit: FittedOrder) -> str:
     if fit.fitted_order is None:
         return "-"
-    if fit.interval is None:
+    if fit.spread is None:
         return f"{fit.fitted_order:.4f}"
-    return f"{fit.fitted_order:.4f} ± {fit.interval:{'.4f' if fit.interval >= 5e-5 else '.0e'}}"
+    return f"{fit.fitted_order:.4f} ± {fit.spread:{'.4f' if fit.spread >= 5e-5 else '.0e'}}"

@@ -9,12 +9,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Literal
 
-import heyoka as hy
 import numpy as np
 
 from compare.algebraic import Q
 from compare.sine import LaneArithmetic
 from reference.arithmetic import NUMPY, Heyoka
+from reference.compiler import hy
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

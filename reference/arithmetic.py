@@ -16,7 +16,6 @@ from reference.elliptic import BallElliptic, MpmathElliptic
 
 if TYPE_CHECKING:
     from fractions import Fraction
-    from types import ModuleType
 
 __all__ = ["BALL", "MPMATH", "NUMPY", "Arithmetic", "Ball", "EllipticArithmetic", "Heyoka", "Mpmath", "Numpy"]
 
@@ -99,7 +98,9 @@ class Heyoka:
     """heyoka's symbolic expressions; ``number`` gives constants of the floating-point type that will run them."""
 
     def __init__(self, number: Any = float) -> None:
-        self._hy: ModuleType = __import__("heyoka")
+        from reference.compiler import hy
+
+        self._hy = hy
         self._number = number
 
     def number(self, value: Fraction) -> Any:

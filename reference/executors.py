@@ -18,7 +18,7 @@ from reference.names import unknown
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator
 
-__all__ = ["EXECUTORS", "WorkerError", "opened", "results"]
+__all__ = ["EXECUTORS", "WorkerError", "opened", "processes", "results"]
 
 EXECUTORS = ("process", "dask:ADDRESS", "mpi")
 AHEAD = 4
@@ -65,9 +65,15 @@ def opened(name: str, jobs: int) -> Iterator[Executor]:
     elif jobs == 1:
         yield Inline()
     else:
-        context = multiprocessing.get_context("spawn")
-        with ProcessPoolExecutor(jobs, context, initializer=_follow_parent) as executor:
+        with processes(jobs) as executor:
             yield executor
+
+
+@contextmanager
+def processes(count: int) -> Iterator[Executor]:
+    """Open a pool of ``count`` fresh processes, at least one, that end with this one."""
+    with ProcessPoolExecutor(count, multiprocessing.get_context("spawn"), initializer=_follow_parent) as executor:
+        yield executor
 
 
 def _follow_parent() -> None:

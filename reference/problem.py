@@ -96,8 +96,11 @@ class Problem:
         """A bound in 1/s on how fast neighbouring solutions turn or part, to choose the work of implicit methods."""
         raise NotImplementedError
 
-    def neighbour(self, rounding: Callable[[Fraction], Fraction]) -> Problem:
-        """The same problem from a start close by, its values given by ``rounding`` to a number format."""
+    def neighbour(self, rounding: Callable[[Fraction], Fraction], epsilon: Fraction) -> Problem:
+        """The same problem from a start close by, but by many of a format's roundings.
+
+        ``rounding`` gives the format's nearest number, ``epsilon`` its relative spacing.
+        """
         raise NotImplementedError
 
     def closed_form(self, m: Any) -> ClosedForm:

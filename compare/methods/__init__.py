@@ -27,4 +27,4 @@ def find(name: str) -> Method:
         if name in {method.name, *method.aliases}:
             return method
     names, aliases = [method.name for method in METHODS], [alias for method in METHODS for alias in method.aliases]
-    raise ValueError(unknown("method", name, names, aliases))
+    raise ValueError(unknown("method", str(name), names, aliases))

@@ -9,8 +9,10 @@ import numpy as np
 from compare.march import INLINE_SINE, march
 from compare.records import Study, Trace
 from compare.score import SAMPLES, Course, relative_drift
-from compare.scoring import DEFAULT_N, score_all
-from reference import Pendulum
+from compare.scoring import DEFAULT_N, score_all, some
+from reference import Pendulum, __version__
+from reference.certify import ROUTES
+from reference.compiler import hy
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -54,9 +56,9 @@ def study(
     Raises:
         ValueError: an argument is outside its range, or a name unknown.
     """
-    if not len(theta0):
-        raise ValueError("theta0 is empty; at least one is accepted.")
-    problems = [Pendulum(amplitude, g, length) for amplitude in dict.fromkeys(theta0)]
+    problems = [Pendulum(amplitude, g, length) for amplitude in some(theta0, "theta0")]
+    if len({float(problem.theta0) for problem in problems}) < len(problems):
+        raise ValueError("theta0 has one amplitude twice, to a double's precision; each is accepted once.")
     scored = score_all(problems, methods, n, t_end, precision, executor, progress)
     kept, exact_orbits = _traces(scored) if traces else ((), ())
     return Study(
@@ -69,6 +71,8 @@ def study(
             "samples": SAMPLES,
         },
         reference={
+            "version": __version__,
+            "routes": ["enclosure", *ROUTES],
             "definition": "theta'' = -(g/length) sin(theta), theta(0) = theta0, theta'(0) = 0",
             "truth": "the state at exactly t = n h, proven correctly rounded; h is t_end/N rounded to the format",
         },
@@ -109,12 +113,10 @@ def _trace(name: str, course: Course, states: np.ndarray) -> Trace:
 
 
 def _engine(fmt: Precision) -> dict[str, Any]:
-    import heyoka
-
     return {
         "precision": fmt.name,
         "bits": fmt.bits,
-        "compiler": f"heyoka {heyoka.__version__}",
+        "compiler": f"heyoka {hy.__version__}",
         "sine": f"heyoka's vector library; from {INLINE_SINE:.0e} evaluations in a march, inlined (compare.sine)",
         "contraction": "products and sums may be fused, so rounding differs from one processor to another",
     }

@@ -25,10 +25,9 @@ class Flow:
     """
 
     def __init__(self, problem: Problem, bits: int) -> None:
-        import heyoka
+        from reference.compiler import hy
 
-        heyoka.set_logger_level_error()  # it warns on stdout where its own disk cache cannot be written
-        self._hy = heyoka
+        self._hy = hy
         self._problem = problem
         self._bits = bits
 

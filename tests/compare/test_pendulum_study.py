@@ -57,6 +57,7 @@ def test_progress_is_told_each_method_once() -> None:
         ({"n": [True]}, "n is True; a positive integer"),
         ({"n": []}, "n is empty"),
         ({"theta0": []}, "theta0 is empty"),
+        ({"theta0": ["0.1", 0.1]}, "theta0 has one amplitude twice"),
         ({"theta0": [0.0]}, "theta0 is 0.0; an amplitude"),
         ({"theta0": [math.nan]}, "theta0 is nan, which is not finite"),
         ({"t_end": 0}, "t_end is 0.0; a positive number"),

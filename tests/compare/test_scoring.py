@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+from typing import Any
+
+import pytest
+
 import compare
 from compare.studies.pendulum import study
 from reference import Pendulum
-from reference.executors import opened
+from reference.executors import processes
 
 
 def test_error_vs_n_and_energy_drift_give_what_the_study_gives() -> None:
@@ -16,7 +20,7 @@ def test_error_vs_n_and_energy_drift_give_what_the_study_gives() -> None:
 
 def test_processes_give_what_one_process_gives() -> None:
     alone = study(n=(128, 16384), methods=("yoshida4", "euler", "implicit_midpoint"))
-    with opened("process", 2) as executor:
+    with processes(1) as executor:
         shared = study(n=(128, 16384), methods=("yoshida4", "euler", "implicit_midpoint"), executor=executor)
     assert shared == alone
 
@@ -25,6 +29,25 @@ def test_scores_in_a_wide_format_are_numbers_too() -> None:
     (cell,) = compare.error_vs_n(Pendulum("1/2"), methods=("suzuki4",), n=[512], precision="mp:160", t_end="2.5")
     assert 0 < cell.max_error < 1e-6
     assert not cell.floor
+
+
+@pytest.mark.parametrize(
+    ("options", "sentence"),
+    [
+        ({"n": 1000}, "n is 1000; a sequence such as"),
+        ({"n": [128], "methods": "rk4"}, "methods is 'rk4'; a sequence such as"),
+        ({"n": [128], "methods": [3]}, "method '3' is unknown"),
+        ({"n": [128], "precision": 64}, "precision '64' is unknown"),
+    ],
+)
+def test_a_wrong_kind_of_argument_is_refused_in_one_sentence(options: dict[str, Any], sentence: str) -> None:
+    with pytest.raises((TypeError, ValueError), match=sentence):
+        compare.error_vs_n(Pendulum(1.0), **options)
+
+
+def test_what_is_no_problem_is_refused() -> None:
+    with pytest.raises(TypeError, match=r"problems such as Pendulum\(1.0\) are accepted"):
+        compare.error_vs_n(3, n=[128])
 
 
 def test_an_unknown_name_is_no_attribute() -> None:

@@ -110,10 +110,10 @@ class Pendulum(SeparableProblem):
         """omega0: |d(omega')/d(theta)| <= omega0^2."""
         return float(mp.sqrt(MPMATH.number(self.g / self.length)))
 
-    def neighbour(self, rounding: Callable[[Fraction], Fraction]) -> Pendulum:
-        """The pendulum from theta0 less 2^-20 of its distance to the nearer of 0 and pi."""
-        edge = min(self.theta0, max(Fraction(math.pi) - self.theta0, Fraction(1, 1 << 60)))
-        return Pendulum(rounding(self.theta0 - edge / (1 << 20)), self.g, self.length)
+    def neighbour(self, rounding: Callable[[Fraction], Fraction], epsilon: Fraction) -> Pendulum:
+        """The pendulum from theta0 less 2^-20 of its distance to the nearer of 0 and pi, or less 16 roundings."""
+        edge = min(self.theta0, Fraction(math.pi) - self.theta0)
+        return Pendulum(rounding(self.theta0 - max(edge / (1 << 20), 16 * epsilon * self.theta0)), self.g, self.length)
 
     def closed_form(self, m: EllipticArithmetic) -> Libration:
         """The closed form in balls or in mpmath."""
