@@ -25,9 +25,9 @@ class Flow:
     """
 
     def __init__(self, problem: Problem, bits: int) -> None:
-        from reference.compiler import hy
+        from reference.compiler import hy, not_kept
 
-        self._hy = hy
+        self._hy, self._not_kept = hy, not_kept
         self._problem = problem
         self._bits = bits
 
@@ -48,16 +48,17 @@ class Flow:
         if variational:
             chosen = [self._variables[problem.state_names.index(name)] for name in variational]
             system = hy.var_ode_sys(system, chosen, 1)
-        return hy.taylor_adaptive(
-            system,
-            [self._real(value) for value in problem.start],
-            fp_type=hy.real,
-            prec=self._bits,
-            tol=self._real(Fraction(1, 2**self._bits)),
-            pars=[self._real(value) for value in parameters.values()],
-            compact_mode=True,
-            **events,
-        )
+        with self._not_kept():
+            return hy.taylor_adaptive(
+                system,
+                [self._real(value) for value in problem.start],
+                fp_type=hy.real,
+                prec=self._bits,
+                tol=self._real(Fraction(1, 2**self._bits)),
+                pars=[self._real(value) for value in parameters.values()],
+                compact_mode=True,
+                **events,
+            )
 
     def at(self, times: Sequence[Fraction], variational: Sequence[str] = ()) -> list[tuple[Fraction, ...]]:
         """The state at each time (none negative), and after it its derivatives by the named initial values."""
