@@ -87,6 +87,7 @@ def _make_stage(target: Path) -> tuple[Path, Path]:
     """A hidden folder on the target's disk, and the folder in it where files are collected."""
     first = None if target.is_dir() else _first_missing(target)
     parent = target if first is None else first.parent
+    _clear_orphans(parent)
     stage = parent / f".horologium-{os.getpid()}-{secrets.token_hex(4)}"
     stage.mkdir()
     inside = stage if first is None else stage / target.relative_to(first)
@@ -96,6 +97,24 @@ def _make_stage(target: Path) -> tuple[Path, Path]:
         shutil.rmtree(stage, ignore_errors=True)
         raise
     return stage, inside
+
+
+def _clear_orphans(parent: Path) -> None:
+    """Remove the stages of processes of ours that were killed before they could."""
+    for stage in parent.glob(".horologium-*-*"):
+        pid = stage.name.split("-")[1]
+        if stage.is_dir() and pid.isdecimal() and not _is_running(int(pid)):
+            shutil.rmtree(stage, ignore_errors=True)
+
+
+def _is_running(pid: int) -> bool:
+    try:
+        os.kill(pid, 0)
+    except ProcessLookupError:
+        return False
+    except PermissionError:
+        return True
+    return True
 
 
 def _first_missing(target: Path) -> Path:

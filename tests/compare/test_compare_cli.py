@@ -164,6 +164,17 @@ def test_files_of_an_older_run_are_replaced_together_or_not_at_all(tmp_path):
     assert {path.name: path.read_text() for path in tmp_path.iterdir()} == {"one": "new", "two": "new"}
 
 
+def test_what_a_killed_run_left_behind_is_cleared(tmp_path):
+    ended = subprocess.Popen([sys.executable, "-c", ""])
+    ended.wait()
+    orphan, ours, another = (tmp_path / f".horologium-{pid}-abcd" for pid in (ended.pid, os.getpid(), "x"))
+    for folder in (orphan, ours, another):
+        folder.mkdir()
+    with output.folder(tmp_path / "new") as results:
+        results.write({"one": b"1"})
+    assert [path.exists() for path in (orphan, ours, another)] == [False, True, True]
+
+
 def test_an_interrupt_leaves_nothing_behind_and_exits_130(tmp_path, monkeypatch):
     def interrupted(*_: object) -> None:
         raise KeyboardInterrupt
