@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-import argparse
-import re
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, NoReturn
+from typing import TYPE_CHECKING, Any
 
 from compare.table import FORMATS
-from reference.names import unknown
+from reference.names import short
+from reference.terminal import Parser, one_of
 
 if TYPE_CHECKING:
+    import argparse
     from collections.abc import Callable, Sequence
 
 __all__ = ["COMMANDS", "Request", "parse"]
@@ -36,7 +36,6 @@ _OPTIONS: dict[str, tuple[str | None, str]] = {
 _ACCEPTED = {"pendulum": tuple(_OPTIONS), "list": ("--format",)}
 _LISTS = ("--theta0", "--methods", "--n")
 _EPILOG = "A number is read as binary64, as in a program.  A mistake is one sentence on stderr and exit code 2."
-_SIGNED = re.compile(r"-(\d|\.\d|inf|nan)", re.IGNORECASE)
 
 
 @dataclass(frozen=True)
@@ -60,13 +59,6 @@ class Request:
     quiet: bool
 
 
-class _Parser(argparse.ArgumentParser):
-    """Raises what it finds wrong, as a sentence."""
-
-    def error(self, message: str) -> NoReturn:
-        raise ValueError(re.sub(r"^argument (\S+): ", r"\1: ", message) + ".")
-
-
 def parse(words: Sequence[str]) -> Request:
     """Read a command line.
 
@@ -75,27 +67,22 @@ def parse(words: Sequence[str]) -> Request:
     """
     if not words:
         raise ValueError(f"no command is given; {_alternatives(tuple(COMMANDS))} is accepted.")
-    if words[0] not in {"-h", "--help"}:
-        _known("command", words[0], tuple(COMMANDS))
-    parser = _parser()
-    known, unknown = parser.parse_known_args(_joined(words))
-    if unknown:
-        _known_option(unknown[0], _ACCEPTED[known.command])
+    known = _parser().parse_args(words)
     return Request(
         command=known.command,
         options=_study_options(known) if known.command == "pendulum" else {},
-        form=_known("format", known.format or "text", FORMATS),
+        form=known.format,
         out=getattr(known, "out", None),
         plots=getattr(known, "plots", False),
         quiet=getattr(known, "quiet", False),
     )
 
 
-def _parser() -> _Parser:
-    parser = _Parser(prog="python -m compare", description="Score integrators.", epilog=_EPILOG, allow_abbrev=False)
+def _parser() -> Parser:
+    parser = Parser(prog="python -m compare", description="Score integrators.", epilog=_EPILOG)
     commands = parser.add_subparsers(dest="command", metavar="COMMAND")
     for command, text in COMMANDS.items():
-        one = commands.add_parser(command, help=text, description=text, epilog=_EPILOG, allow_abbrev=False)
+        one = commands.add_parser(command, help=text, description=text, epilog=_EPILOG)
         for option in _ACCEPTED[command]:
             _add(one, option)
     return parser
@@ -103,21 +90,12 @@ def _parser() -> _Parser:
 
 def _add(parser: argparse.ArgumentParser, option: str) -> None:
     metavar, text = _OPTIONS[option]
-    if metavar is None:
+    if option == "--format":
+        parser.add_argument(option, type=one_of("format", FORMATS), default="text", metavar=metavar, help=text)
+    elif metavar is None:
         parser.add_argument(option, action="store_true", help=text)
     else:
         parser.add_argument(option, action="append" if option in _LISTS else "store", metavar=metavar, help=text)
-
-
-def _joined(words: Sequence[str]) -> list[str]:
-    """The words with a value such as -1,2 or -inf tied to its option, lest it be read as an option itself."""
-    tied: list[str] = []
-    for word in words:
-        if _SIGNED.match(word) and tied and tied[-1].startswith("--") and "=" not in tied[-1]:
-            tied[-1] += f"={word}"
-        else:
-            tied.append(word)
-    return tied
 
 
 def _study_options(known: argparse.Namespace) -> dict[str, Any]:
@@ -154,33 +132,17 @@ def _number(piece: str, name: str) -> float:
     try:
         return float(piece)
     except ValueError as error:
-        raise ValueError(f"--{name} {_short(piece)!r} is not a number; one such as 1 or 2.5e-3 is accepted.") from error
+        raise ValueError(f"--{name} '{short(piece)}' is not a number; one such as 1 or 2.5e-3 is accepted.") from error
 
 
 def _whole(piece: str, name: str) -> int:
     try:
         value = int(piece)
     except ValueError as error:
-        raise ValueError(f"--{name} {_short(piece)!r} is not a whole number; one such as 128 is accepted.") from error
+        raise ValueError(f"--{name} '{short(piece)}' is not a whole number; one such as 128 is accepted.") from error
     if value < 1:
         raise ValueError(f"--{name} {piece} is not a number of steps; 1 or more is accepted.")
     return value
-
-
-def _known(kind: str, word: str, names: Sequence[str]) -> str:
-    if word in names:
-        return word
-    raise ValueError(unknown(kind, _short(word), names))
-
-
-def _known_option(word: str, names: Sequence[str]) -> None:
-    if not word.startswith("-"):
-        raise ValueError(f"the argument {word!r} is one too many; options such as {names[0]} are accepted.")
-    _known("option", word.partition("=")[0], names)
-
-
-def _short(word: str) -> str:
-    return word if len(word) <= 40 else f"{word[:36]}..."
 
 
 def _alternatives(names: Sequence[str]) -> str:

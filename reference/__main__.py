@@ -8,14 +8,14 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from reference.cite import FORMATS as CITE_FORMATS
+from reference.names import short
 from reference.terminal import Parser, one_of, progress_bar, run
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
 FORMATS = ("text", "json")
-CITE_FORMATS = ("bibtex", "text")
-PROFILE_NAMES = ("core", "full")
 
 
 def command(arguments: Sequence[str] | None = None) -> int:
@@ -30,11 +30,13 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def _parser() -> Parser:
+    from reference.catalogue import PROFILES
+
     parser = Parser(prog="python -m reference", description="Reference values, proven correctly rounded.")
     commands = parser.add_subparsers(dest="command", metavar="COMMAND", required=True, parser_class=Parser)
     build = commands.add_parser("build", help="prove the values of a profile and write them as a dataset")
     build.add_argument("--out", metavar="FILE", help="the file to write (default: the core dataset's place)")
-    build.add_argument("--profile", type=one_of("profile", PROFILE_NAMES), default="core", help="core or full")
+    build.add_argument("--profile", type=one_of("profile", tuple(PROFILES)), default="core", help="core or full")
     _add_workers(build)
     build.set_defaults(run=_build)
     verify = commands.add_parser("verify", help="check a dataset and prove its values again")
@@ -59,7 +61,7 @@ def _parser() -> Parser:
 
 def _jobs(text: str) -> int:
     if not (text.isascii() and text.isdigit() and 1 <= int(text) <= 4096):
-        raise argparse.ArgumentTypeError(f"jobs is '{text}'; an integer from 1 to 4096 is accepted.")
+        raise argparse.ArgumentTypeError(f"jobs is '{short(text)}'; an integer from 1 to 4096 is accepted.")
     return int(text)
 
 

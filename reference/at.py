@@ -7,7 +7,8 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
-from reference.exact import as_number, exact, spelled
+from reference.exact import as_number, exact, expansion
+from reference.names import short
 from reference.problems.pendulum import Pendulum
 
 if TYPE_CHECKING:
@@ -83,7 +84,7 @@ def digits_count(text: str) -> int:
     """
     count = int(text) if text.isascii() and text.isdigit() and len(text) <= len(str(DIGITS_LIMIT)) else 0
     if not 1 <= count <= DIGITS_LIMIT:
-        raise ValueError(f"digits is '{text}'; an integer from 1 to {DIGITS_LIMIT} is accepted.")
+        raise ValueError(f"digits is '{short(text)}'; an integer from 1 to {DIGITS_LIMIT} is accepted.")
     return count
 
 
@@ -128,16 +129,6 @@ def _shown(value: Fraction) -> str:
     simple = as_number(value)
     if isinstance(simple, str):
         return simple
-    whole = _decimal(value)
+    whole = expansion(value)
     same = Fraction(repr(simple)) == value
     return f"{simple!r} ({simple.hex()})" if same else f"{simple!r} (exactly {whole}, {simple.hex()})"
-
-
-def _decimal(value: Fraction) -> str:
-    """The exact decimal expansion of a binary64 number."""
-    short = spelled(value)
-    if "/" not in short:
-        return short
-    places = value.denominator.bit_length() - 1
-    whole, rest = divmod(abs(value.numerator) * 10**places // value.denominator, 10**places)
-    return f"{'-' if value < 0 else ''}{whole}.{rest:0{places}d}"

@@ -10,21 +10,20 @@ if TYPE_CHECKING:
 __all__ = ["FORMATS", "cite"]
 
 FORMATS = ("bibtex", "text")
-YEAR = "2026"
 
 
 def cite(dataset: Dataset, form: str = "bibtex") -> str:
-    """The citation of a dataset as BibTeX or as a sentence, with version and fingerprint."""
+    """The citation of a dataset as BibTeX or as a sentence, with version and fingerprint; dated where the file is."""
     title, version = dataset.attrs["title"], dataset.attrs["version"]
     creators, mark = dataset.attrs["creators"], f"sha256:{dataset.fingerprint}"
+    year = str(dataset.provenance.get("date", ""))[:4]
     if form == "text":
-        return (
-            f"{creators} ({YEAR}). {title}. Version {version}, {dataset.attrs['profile']} profile. Fingerprint {mark}."
-        )
+        dated = f" ({year})" if year else ""
+        return f"{creators}{dated}. {title}. Version {version}, {dataset.attrs['profile']} profile. Fingerprint {mark}."
     fields = {
         "author": f"{{{creators}}}",
         "title": f"{{{title}}}",
-        "year": YEAR,
+        **({"year": year} if year else {}),
         "version": version,
         "note": f"Dataset, {dataset.attrs['profile']} profile, version {version}, fingerprint {mark}",
         "copyright": dataset.attrs["license"],

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
 from typing import TYPE_CHECKING
 
 from reference.certify import REQUIRED_DIGITS
 from reference.cite import cite
+from reference.exact import expansion
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -33,7 +35,7 @@ This file holds such values for problems with a closed form, each proven: to tes
 
 ## What a number means
 
-Inputs (coordinates and the groups' parameters) are exact binary64 numbers: 9.81 stands for {gravity}.
+Inputs (coordinates and the groups' parameters) are exact binary64 numbers{example}.
 A value x is stored as `x = value + tail[0] + tail[1]`: \
 `value` is x correctly rounded to binary64 (nearest, ties to even), \
 each limb of `NAME_tail` is the correctly rounded rest.
@@ -97,11 +99,21 @@ def datasheet(dataset: Dataset) -> str:
         "name": dataset.path.name,
         "bytes": f"{dataset.path.stat().st_size:,}",
         "elements": f"{sum(_count(variable) for variable in dataset.values() if not variable.is_input):,}",
-        "gravity": "9.8100000000000004973799150320701301097869873046875",
+        "example": _example(dataset),
         "required": REQUIRED_DIGITS,
         "citation": cite(dataset),
     }
     return OPENING.format(**values) + "\n".join(_contents(dataset)) + "\n" + CLOSING.format(**values)
+
+
+def _example(dataset: Dataset) -> str:
+    """The first parameter or input that is not the decimal that it is written as; empty where there is none."""
+    inputs = (number for variable in dataset.values() if variable.is_input for number in variable.value.tolist())
+    parameters = (number for group in dataset.parameters.values() for number in group.values())
+    for number in (*parameters, *inputs):
+        if Fraction(repr(number)) != Fraction(number):
+            return f": {number!r} stands for {expansion(Fraction(number))}"
+    return ""
 
 
 def _count(variable: Variable) -> int:

@@ -7,7 +7,8 @@ Nothing in the reference ever sees a rounded input.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+import operator
+from collections.abc import Iterable, Mapping, Set
 from decimal import Decimal
 from fractions import Fraction
 from numbers import Rational
@@ -15,11 +16,17 @@ from typing import Any
 
 import numpy as np
 
-__all__ = ["as_number", "exact", "exact_array", "spelled"]
+from reference.names import short
+
+__all__ = ["as_number", "exact", "exact_array", "expansion", "positive", "spelled"]
 
 ACCEPTED = "a finite number, a decimal string such as '9.81', or a Fraction is accepted"
 ROWS_ACCEPTED = "an array with rows of one length is accepted"
 LOG2_10 = math.log2(10)
+NUMBER_KINDS = "fiuOU"
+"""NumPy kinds of arrays whose elements can be numbers: floats, integers, objects and strings."""
+NO_SEQUENCES = (bytes, bytearray, memoryview, Mapping, Set)
+"""What can be iterated over, but is not a sequence of numbers, or has no order."""
 MAX_DIGITS = 4000
 """Digits that the numerator or the denominator of an input may have, so that every input can be printed exactly."""
 
@@ -42,7 +49,7 @@ def exact(value: Any, name: str = "value") -> Fraction:
 def _exact(value: Any, name: str) -> Fraction:
     if isinstance(value, str):
         return _spelled_number(value, name)
-    if isinstance(value, (bool, np.bool_, complex, np.complexfloating)):
+    if isinstance(value, (bool, np.bool_, complex, np.complexfloating, np.timedelta64)):
         raise TypeError(f"{name} is {value!r}, which is not a real number; {ACCEPTED}.")
     if isinstance(value, (Rational, np.integer)):
         return Fraction(int(value.numerator), int(value.denominator))
@@ -60,15 +67,11 @@ def _exact(value: Any, name: str) -> Fraction:
 def _spelled_number(text: str, name: str) -> Fraction:
     exponent = text.lower().partition("e")[2].strip().lstrip("+-0")
     if exponent.isdecimal() and (len(exponent) > 9 or int(exponent) > MAX_DIGITS):
-        raise ValueError(f"{name} is '{_short(text)}', whose exponent is beyond the limit of {MAX_DIGITS}.")
+        raise ValueError(f"{name} is '{short(text)}', whose exponent is beyond the limit of {MAX_DIGITS}.")
     try:
         return Fraction(text.strip())
     except (ValueError, ZeroDivisionError):
-        raise ValueError(f"{name} is '{_short(text)}', which spells no number; {ACCEPTED}.") from None
-
-
-def _short(text: str) -> str:
-    return text if len(text) <= 60 else f"{text[:40]}... ({len(text)} characters)"
+        raise ValueError(f"{name} is '{short(text)}', which spells no number; {ACCEPTED}.") from None
 
 
 def exact_array(values: Any, name: str = "value") -> tuple[list[Fraction], tuple[int, ...]]:
@@ -78,6 +81,7 @@ def exact_array(values: Any, name: str = "value") -> tuple[list[Fraction], tuple
 
     Raises:
         ValueError: ``values`` is empty or ragged, or one of them is not finite.
+        TypeError: ``values`` is or holds something else, such as bytes, dates, a mapping or a set.
     """
     if isinstance(values, (str, Rational, float, Decimal)):
         return [exact(values, name)], ()
@@ -85,6 +89,8 @@ def exact_array(values: Any, name: str = "value") -> tuple[list[Fraction], tuple
         array = values if isinstance(values, np.ndarray) else np.array(_listed(values), dtype=object)
     except ValueError:
         raise ValueError(f"{name} is ragged; {ROWS_ACCEPTED}.") from None
+    if array.dtype.kind not in NUMBER_KINDS:
+        raise TypeError(f"{name} is an array of {array.dtype}; {ACCEPTED}.")
     if array.size == 0:
         raise ValueError(f"{name} is empty; at least one number is accepted.")
     elements = array.ravel().tolist()
@@ -95,9 +101,26 @@ def exact_array(values: Any, name: str = "value") -> tuple[list[Fraction], tuple
 
 def _listed(values: Any) -> Any:
     """Iterables other than lists and tuples (ranges, generators) as lists."""
+    if isinstance(values, NO_SEQUENCES):
+        return [values]  # which ``exact`` refuses by its type
     if isinstance(values, Iterable) and not isinstance(values, (str, list, tuple)):
         return list(values)
     return values
+
+
+def positive(value: Any, name: str) -> int:
+    """Return a count as an int; NumPy's integers are counts, truth values are not.
+
+    Raises:
+        ValueError: it is not a positive integer.
+    """
+    try:
+        count = 0 if isinstance(value, (bool, np.bool_)) else operator.index(value)
+    except TypeError:
+        count = 0
+    if count < 1:
+        raise ValueError(f"{name} is {value!r}; a positive integer is accepted.")
+    return count
 
 
 def as_number(value: Fraction) -> float | str:
@@ -126,3 +149,13 @@ def spelled(value: Fraction) -> str:
         return str(value)
     sign, digits = int(scaled < 0), tuple(int(digit) for digit in str(abs(scaled)))
     return str(Decimal((sign, digits, -places)))
+
+
+def expansion(value: Fraction) -> str:
+    """Return the exact decimal expansion of a binary64 number, whatever its length."""
+    brief = spelled(value)
+    if "/" not in brief:
+        return brief
+    places = value.denominator.bit_length() - 1
+    whole, rest = divmod(abs(value.numerator) * 10**places // value.denominator, 10**places)
+    return f"{'-' if value < 0 else ''}{whole}.{rest:0{places}d}"

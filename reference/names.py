@@ -8,15 +8,22 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-__all__ = ["unknown"]
+__all__ = ["short", "unknown"]
 
 SHOWN = 12
+LENGTH = 60
+"""Characters up to which a text that was given is repeated whole."""
+
+
+def short(text: str) -> str:
+    """The text as a sentence repeats it: whole, or where it is long its beginning and its length."""
+    return text if len(text) <= LENGTH else f"{text[:40]}... ({len(text)} characters)"
 
 
 def unknown(kind: str, given: str, names: Iterable[str], aliases: Iterable[str] = ()) -> str:
     """Return for example "profile 'cor' is unknown, perhaps core; accepted are core, full."; aliases may be nearest."""
     accepted = list(names)
-    near = get_close_matches(given, [*accepted, *aliases], n=3, cutoff=0.5)
+    near = get_close_matches(given[:LENGTH], [*accepted, *aliases], n=3, cutoff=0.5)
     guess = f", perhaps {' or '.join(near)}" if near else ""
     more = ", ..." if len(accepted) > SHOWN else ""
-    return f"{kind} '{given}' is unknown{guess}; accepted are {', '.join(accepted[:SHOWN])}{more}."
+    return f"{kind} '{short(given)}' is unknown{guess}; accepted are {', '.join(accepted[:SHOWN])}{more}."

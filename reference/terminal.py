@@ -1,43 +1,85 @@
-"""The manners of a command line: every error one sentence, exit codes 0, 1, 2 and 130, pipes that may close."""
+"""The manners of a command line: every error one sentence, exit codes 0, 1, 2, 130 and 143, pipes that may close."""
 
 from __future__ import annotations
 
 import argparse
+import errno
+import io
 import os
 import re
+import signal
 import sys
+import threading
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any, NoReturn
 
-from reference.names import unknown
+from reference.names import short, unknown
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
 
-__all__ = ["Parser", "one_of", "progress_bar", "run"]
+__all__ = ["Parser", "Terminated", "one_of", "progress_bar", "run"]
 
 CHOICE = re.compile(r"invalid choice: (.*?) \(choose from (.*)\)$")
+SIGNED = re.compile(r"-(\d|\.\d|inf|nan)", re.IGNORECASE)
 INTERRUPTED = 130
+TERMINATED = 143
+STREAMS = 3
+"""Standard input, output and error have the numbers below this one."""
+
+
+class Terminated(BaseException):
+    """The process was asked to end: as an exception, so that whatever has something to clear away does."""
 
 
 class Parser(argparse.ArgumentParser):
-    """An argument parser whose errors are one sentence with the nearest valid names, without the usage."""
+    """An argument parser whose errors are one sentence with the nearest valid names, without the usage.
+
+    A value such as -1e3, -1/2 or -inf is a value; no option looks like a number.
+    """
 
     def __init__(self, *args: Any, **kwargs: Any) -> None:
         super().__init__(*args, **{"allow_abbrev": False, **kwargs})
+        self._negative_number_matcher = SIGNED  # argparse's own knows -1 and -1.5 only
+
+    def parse_known_args(self, args: Any = None, namespace: Any = None) -> Any:
+        """Parse the words; an unknown one is an error already here, where the options in its place are known.
+
+        Raises:
+            ValueError: a word cannot be read; the sentence says what is accepted.
+        """
+        words = sys.argv[1:] if args is None else list(args)
+        self._refuse_unknown(words)
+        found, rest = super().parse_known_args(words, namespace)
+        if rest:
+            options = [name for name in self._option_string_actions if name.startswith("--") and name != "--help"]
+            such = f"options such as {options[0]} are accepted" if options else "nothing more is accepted"
+            self.error(f"the argument '{short(rest[0])}' is one too many; {such}.")
+        return found, []
+
+    def _refuse_unknown(self, words: Sequence[str]) -> None:
+        """Name the first option that is unknown: before a command its words end, after "--" there are none."""
+        commands = next((a.choices for a in self._actions if isinstance(a, argparse._SubParsersAction)), None)  # noqa: SLF001 (argparse has no other way to ask)
+        for word in words:
+            is_option = word.startswith("-") and len(word) > 1 and not SIGNED.match(word)
+            if word == "--" or (commands is not None and not is_option):
+                return
+            name = word.partition("=")[0]
+            if is_option and name not in self._option_string_actions:
+                kind = ("option", self._option_string_actions) if commands is None else ("command", commands)
+                self.error(unknown(kind[0], name, [known for known in kind[1] if known not in {"-h", "--help"}]))
 
     def error(self, message: str) -> NoReturn:
-        """Print the sentence on stderr and exit 2."""
+        """Raise ValueError with the sentence; ``run`` prints it."""
         argument, _, rest = message.partition(": ")
         sentence = rest if argument.startswith("argument ") else message
         choice = CHOICE.search(sentence)
         if choice:
             kind = argument.removeprefix("argument ").lower()
             sentence = unknown(kind, choice[1].strip("'"), re.findall(r"[\w:-]+", choice[2]))
-        elif argument.startswith("argument ") and rest.startswith("expected"):
+        elif argument.startswith("argument ") and rest.startswith(("expected", "ignored")):
             sentence = message.removeprefix("argument ")
-        sys.stderr.write(f"error: {sentence}{'' if sentence.endswith('.') else '.'}\n")
-        raise SystemExit(2)
+        raise ValueError(sentence if sentence.endswith(".") else f"{sentence}.")
 
 
 def one_of(kind: str, names: Sequence[str]) -> Callable[[str], str]:
@@ -68,20 +110,71 @@ def progress_bar(title: str, *, quiet: bool) -> Iterator[Callable[[int, int], No
 
 def run(command: Callable[[Sequence[str] | None], int], arguments: Sequence[str] | None = None) -> int:
     """Run a command and return its exit code; what a user can cause ends in one sentence on stderr and code 2."""
+    with _streams(), _terminable():
+        try:
+            code = command(arguments)
+            sys.stdout.flush()
+        except BrokenPipeError:
+            _silence_output()
+            return 0
+        except KeyboardInterrupt:
+            sys.stderr.write("interrupted.\n")
+            return INTERRUPTED
+        except Terminated:
+            sys.stderr.write("terminated.\n")
+            return TERMINATED
+        except (OSError, ValueError, ImportError, ArithmeticError, RuntimeError) as error:
+            sys.stderr.write(f"error: {_sentence(error)}\n")
+            _give_up_a_full_output()
+            return 2
+        return code
+
+
+@contextmanager
+def _terminable() -> Iterator[None]:
+    """Let the signal to terminate raise Terminated, once; elsewhere than in the main thread nothing can."""
+    if threading.current_thread() is not threading.main_thread() or signal.getsignal(signal.SIGTERM) != signal.SIG_DFL:
+        yield
+        return
+
+    def terminate(number: int, _frame: object) -> NoReturn:
+        signal.signal(number, signal.SIG_IGN)
+        raise Terminated
+
+    signal.signal(signal.SIGTERM, terminate)
     try:
-        code = command(arguments)
-        sys.stdout.flush()
-    except BrokenPipeError:
-        _silence_output()
-        return 0
-    except KeyboardInterrupt:
-        sys.stderr.write("interrupted.\n")
-        return INTERRUPTED
-    except (OSError, ValueError, ImportError, ArithmeticError, RuntimeError) as error:
-        sys.stderr.write(f"error: {_sentence(error)}\n")
-        _give_up_a_full_output()
-        return 2
-    return code
+        yield
+    finally:
+        signal.signal(signal.SIGTERM, signal.SIG_DFL)
+
+
+class Closed(io.TextIOBase):
+    """A stand-in for a standard output that the caller closed: whoever has something to say learns of it."""
+
+    def write(self, _text: str, /) -> int:
+        """Refuse.
+
+        Raises:
+            OSError: always.
+        """
+        raise OSError(errno.EBADF, "standard output is closed; nothing could be printed")
+
+
+@contextmanager
+def _streams() -> Iterator[None]:
+    """Stand in for closed streams, and keep files from getting their numbers, to which libraries may write."""
+    out, err = sys.stdout, sys.stderr
+    if out is not None and err is not None:
+        yield
+        return
+    while (handle := os.open(os.devnull, os.O_RDWR)) < STREAMS:
+        os.set_inheritable(handle, True)
+    os.close(handle)
+    sys.stdout, sys.stderr = out or Closed(), err or io.StringIO()
+    try:
+        yield
+    finally:
+        sys.stdout, sys.stderr = out, err
 
 
 def _give_up_a_full_output() -> None:
