@@ -85,6 +85,7 @@ def exact_array(values: Any, name: str = "value") -> tuple[list[Fraction], tuple
     """
     if isinstance(values, (str, Rational, float, Decimal)):
         return [exact(values, name)], ()
+    _refuse_no_sequence(values, name)
     try:
         array = values if isinstance(values, np.ndarray) else np.array(_listed(values), dtype=object)
     except ValueError:
@@ -99,10 +100,17 @@ def exact_array(values: Any, name: str = "value") -> tuple[list[Fraction], tuple
     return [exact(value, name) for value in elements], array.shape
 
 
+def _refuse_no_sequence(values: Any, name: str) -> None:
+    """NumPy would take bytes, inside lists too, for numbers."""
+    if isinstance(values, NO_SEQUENCES):
+        raise TypeError(f"{name} is of type {type(values).__name__}; {ACCEPTED}.")
+    if isinstance(values, (list, tuple)):
+        for value in values:
+            _refuse_no_sequence(value, name)
+
+
 def _listed(values: Any) -> Any:
     """Iterables other than lists and tuples (ranges, generators) as lists."""
-    if isinstance(values, NO_SEQUENCES):
-        return [values]  # which ``exact`` refuses by its type
     if isinstance(values, Iterable) and not isinstance(values, (str, list, tuple)):
         return list(values)
     return values

@@ -11,7 +11,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from reference.exact import MAX_DIGITS, as_number, exact, exact_array, spelled
+from reference.exact import MAX_DIGITS, as_number, exact, exact_array, expansion, positive, spelled
 
 FLOATS = st.floats(allow_nan=False, allow_infinity=False)
 
@@ -81,7 +81,9 @@ def test_a_number_of_thousands_of_digits_is_refused(value):
         exact(value)
 
 
-@pytest.mark.parametrize("value", [True, np.True_, 1j, np.complex64(1), None, [1.0], b"1", {}, object()])
+@pytest.mark.parametrize(
+    "value", [True, np.True_, 1j, np.complex64(1), None, [1.0], b"1", {}, object(), np.timedelta64(5, "s")]
+)
 def test_what_is_no_real_number_is_refused(value):
     with pytest.raises(TypeError, match=r"a finite number, a decimal string such as '9.81', or a Fraction is accepted"):
         exact(value)
@@ -153,6 +155,51 @@ def test_one_bad_element_refuses_the_array(values):
 def test_an_array_of_something_else_is_refused(values):
     with pytest.raises(TypeError, match=r"accepted"):
         exact_array(values, "t")
+
+
+@pytest.mark.parametrize(
+    "values",
+    [
+        b"1",
+        bytearray(b"1"),
+        memoryview(b"1"),
+        np.array(b"1"),
+        np.array([b"1"]),
+        np.array([0, 1], dtype="M8[ns]"),
+        np.array([0, 1], dtype="m8[s]"),
+        np.array(5, dtype="m8[s]"),
+        np.datetime64(0, "ns"),
+        [np.timedelta64(5, "s")],
+        np.zeros(2, dtype="f8,f8"),
+        {1.0: 2.0},
+        {1.0: 2.0}.keys(),
+        {1.0, 2.0},
+        frozenset({1.0}),
+        [{1.0}],
+        [[bytearray(b"1")]],
+    ],
+)
+def test_bytes_dates_mappings_and_sets_are_no_numbers(values):
+    with pytest.raises(TypeError, match=r"^t is .*; a finite number, .* is accepted\.$"):
+        exact_array(values, "t")
+
+
+@given(FLOATS)
+def test_the_expansion_of_a_float_is_exact_and_its_decimal(x):
+    assert Fraction(expansion(Fraction(x))) == Fraction(x)
+    assert "/" not in expansion(Fraction(x))
+
+
+@pytest.mark.parametrize("value", [3, np.int64(3), np.uint8(3)])
+def test_a_count_is_any_integer(value):
+    assert positive(value, "limbs") == 3
+    assert type(positive(value, "limbs")) is int
+
+
+@pytest.mark.parametrize("value", [0, -1, True, np.True_, 3.0, np.float64(3), "3", None])
+def test_what_is_no_count_is_refused(value):
+    with pytest.raises(ValueError, match=r"^limbs is .*; a positive integer is accepted\.$"):
+        positive(value, "limbs")
 
 
 @given(FLOATS)
