@@ -16,8 +16,8 @@ from typing import TYPE_CHECKING, Any
 from flint import arb, ctx
 
 from reference.arithmetic import BALL
-from reference.exact import spelled
-from reference.limbs import decimal, exact_decimal, exact_limbs, interval, limbs
+from reference.exact import positive, spelled
+from reference.limbs import decimal, exact_decimal, interval, to_fixed, to_limbs
 from reference.routes import enclosure
 
 if TYPE_CHECKING:
@@ -108,10 +108,14 @@ class Certified:
         return found[0][self.component]
 
     def limbs(self, count: int = 3) -> tuple[float, ...]:
-        """The correctly rounded double and the ``count`` - 1 limbs of its tail."""
-        return self._decide(  # type: ignore[no-any-return]
-            lambda ball: limbs(interval(ball), count), lambda value: exact_limbs(value, count), 53 * count
-        )
+        """The correctly rounded double and the ``count`` - 1 limbs of its tail.
+
+        Raises:
+            ValueError: ``count`` is not a positive integer.
+            WorkBoundError: a limb could not be decided within the bound on the working precision.
+        """
+        count = positive(count, "limbs")
+        return self._decide(*to_limbs(count), 53 * count)  # type: ignore[no-any-return]
 
     @cached_property
     def _three(self) -> tuple[float, ...]:
@@ -132,13 +136,27 @@ class Certified:
             ValueError: ``count`` is not a positive integer.
             WorkBoundError: the digits could not be decided within the bound on the working precision.
         """
-        if isinstance(count, bool) or not isinstance(count, int) or count < 1:
-            raise ValueError(f"digits is {count!r}; a positive integer is accepted.")
+        count = positive(count, "digits")
         return self._decide(  # type: ignore[no-any-return]
             lambda ball: decimal(interval(ball), count),
             lambda value: exact_decimal(value, count),
             math.ceil(count * math.log2(10)) + 8,
         )
+
+    def fixed(self, places: int) -> str:
+        """The decimal of ``places`` decimal places, correctly rounded.
+
+        Raises:
+            WorkBoundError: the digits could not be decided within the bound on the working precision.
+        """
+        bits = math.ceil(places * math.log2(10)) + 64  # more where the number is large: the proof doubles them
+        return self._decide(*to_fixed(places), bits)  # type: ignore[no-any-return]
+
+    def __format__(self, spec: str) -> str:
+        """As a float is formatted; with a precision and "e", "f" or "g" every digit shown is proven."""
+        from reference.formatting import formatted
+
+        return formatted(self, spec)
 
     @cached_property
     def routes(self) -> dict[str, float]:

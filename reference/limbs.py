@@ -16,7 +16,19 @@ from flint import arb, ctx
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
-__all__ = ["MAX_BITS", "Interval", "WorkBoundError", "decimal", "interval", "limbs", "rounded", "ziv"]
+__all__ = [
+    "MAX_BITS",
+    "Interval",
+    "WorkBoundError",
+    "decimal",
+    "fixed",
+    "interval",
+    "limbs",
+    "rounded",
+    "to_fixed",
+    "to_limbs",
+    "ziv",
+]
 
 BINARY64_BITS = 53
 BINARY64_MIN_EXPONENT = -1074
@@ -25,6 +37,8 @@ MAX_BITS = 1 << 17
 
 Interval = tuple[int, int, int]
 """(a, b, e): the closed interval [a 2^e, b 2^e]."""
+
+Limbs = tuple[float, ...]
 
 Answer = TypeVar("Answer")
 
@@ -116,6 +130,11 @@ def exact_limbs(value: Fraction, count: int) -> tuple[float, ...]:
     return tuple(found)
 
 
+def to_limbs(count: int) -> tuple[Callable[[arb], Limbs | None], Callable[[Fraction], Limbs]]:
+    """How a ball and how an exact rational give their ``count`` limbs: the two questions of a proof."""
+    return lambda ball: limbs(interval(ball), count), lambda value: exact_limbs(value, count)
+
+
 def decimal(bounds: Interval | None, digits: int) -> str | None:
     """Return the decimal of ``digits`` significant digits that every point of the interval rounds to, or None."""
     if bounds is None:
@@ -135,6 +154,28 @@ def exact_decimal(value: Fraction, digits: int) -> str:
     missing = digits - len(quotient.as_tuple().digits)
     padded = quotient if missing <= 0 else quotient.quantize(quotient.scaleb(-missing), context=context)
     return f"{padded:f}" if -7 < padded.adjusted() < digits else f"{padded:e}"
+
+
+def fixed(value: Fraction, places: int) -> str:
+    """Return an exact rational rounded to ``places`` decimal places (nearest, ties to even), with its sign."""
+    scaled = f"{Decimal(abs(round(value * 10**places))):f}".zfill(places + 1)
+    whole, rest = scaled[: len(scaled) - places], scaled[len(scaled) - places :]
+    return f"{'-' if value < 0 else ''}{whole}{'.' if places else ''}{rest}"
+
+
+def to_fixed(places: int) -> tuple[Callable[[arb], str | None], Callable[[Fraction], str]]:
+    """How a ball and how an exact rational give their decimal of ``places`` places."""
+
+    def of_ball(ball: arb) -> str | None:
+        bounds = interval(ball)
+        if bounds is None:
+            return None
+        low, high, exponent = bounds
+        scale = Fraction(2) ** exponent
+        text = fixed(low * scale, places)
+        return text if fixed(high * scale, places) == text else None
+
+    return of_ball, lambda value: fixed(value, places)
 
 
 def ziv(

@@ -14,8 +14,8 @@ from typing import TYPE_CHECKING, Any, ClassVar, Literal, Protocol
 import numpy as np
 
 from reference.certify import Certified
-from reference.exact import exact_array
-from reference.limbs import exact_limbs, interval, limbs
+from reference.exact import exact_array, positive
+from reference.limbs import to_limbs
 from reference.routes import enclosure
 
 if TYPE_CHECKING:
@@ -139,8 +139,7 @@ class Problem:
             self,
             row,
             arguments,
-            lambda ball: limbs(interval(ball), count),
-            lambda value: exact_limbs(value, count),
+            *to_limbs(count),
             53 * count,
         )
         return np.array(found, dtype=np.float64).reshape(len(arguments), -1, count)
@@ -159,8 +158,7 @@ class Problem:
             ValueError: ``t`` is empty or not finite, or ``limbs`` is not a positive integer.
             WorkBoundError: a value could not be decided within the bound on the working precision.
         """
-        if isinstance(limbs, bool) or not isinstance(limbs, int) or limbs < 1:
-            raise ValueError(f"limbs is {limbs!r}; a positive integer is accepted.")
+        limbs = positive(limbs, "limbs")
         times, shape = exact_array(t, "t")
         found = self.values("state", times, limbs)
         found = found.reshape(*shape, len(self.state_names), limbs)
