@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from reference.certify import ROUTES, agreement
-from reference.limbs import exact_limbs, interval, limbs
+from reference.limbs import to_limbs
 from reference.routes import enclosure
 
 if TYPE_CHECKING:
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
     from reference.plan import Block
 
-__all__ = ["LIMBS", "START_BITS", "Result", "compare", "compute", "prove"]
+__all__ = ["LIMBS", "START_BITS", "Result", "compare", "compute", "decimals", "prove"]
 
 LIMBS = 3
 START_BITS = 53 * LIMBS
@@ -71,13 +71,17 @@ def compute(block: Block) -> Result:
         DisagreementError: a route differs within the first 45 digits.
         WorkBoundError: a value could not be decided within the bound on the working precision.
     """
-    problem = block.problem
-    once = block.row.over == "once"
-    components = range(len(block.row.quantities))
-    decimals = [problem.certified(block.row.name, None, i).digits(DECIMAL_DIGITS) for i in components] if once else []
     found = [compare(block, route) for route in ROUTES]
     digits, checked = (np.array([route[part] for route in found]) for part in (0, 1))
-    return Result(prove(block, START_BITS), tuple(decimals), digits, checked)
+    return Result(prove(block, START_BITS), decimals(block), digits, checked)
+
+
+def decimals(block: Block) -> tuple[str, ...]:
+    """For a row that is asked once, the proven decimal of each quantity; else empty."""
+    if block.row.over != "once":
+        return ()
+    problem, components = block.problem, range(len(block.row.quantities))
+    return tuple(problem.certified(block.row.name, None, i).digits(DECIMAL_DIGITS) for i in components)
 
 
 def prove(block: Block, bits: int) -> np.ndarray:
@@ -86,8 +90,7 @@ def prove(block: Block, bits: int) -> np.ndarray:
         block.problem,
         block.row.name,
         block.arguments,
-        lambda ball: limbs(interval(ball), LIMBS),
-        lambda value: exact_limbs(value, LIMBS),
+        *to_limbs(LIMBS),
         bits,
     )
     return np.array(found, dtype=np.float64).reshape(len(block.arguments), -1, LIMBS)

@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING
 import reference
 from reference.blocks import compute
 from reference.certify import ROUTES
+from reference.claims import attributes
 from reference.executors import opened, results
 from reference.partial import partial
 from reference.store.files import destination, note_checksum, replacing, sha256
@@ -109,17 +110,7 @@ class Tally:
 
     def attributes(self) -> dict[str, str | float | int]:
         """The attributes that a variable carries of it."""
-        found: dict[str, str | float | int] = {}
-        for route, digits, checked in zip(ROUTES, self.digits, self.checked, strict=True):
-            found[f"{route}_checked_elements"] = checked
-            if checked:
-                found[f"{route}_digits"] = digits
-            else:
-                found[f"{route}_reason"] = f"the {route} route does not give this quantity"
-        found["checked_elements"] = min(checked for checked in self.checked if checked)
-        if self.decimals:
-            found["decimal"] = " ".join(self.decimals)
-        return found
+        return attributes(self.digits, self.checked, self.decimals)
 
 
 def _write(plan: Plan, target: Path, finished: Partial) -> str:

@@ -1,18 +1,19 @@
-"""The proofs again: every stored limb against balls that start at twice the precision, and the routes once more."""
+"""The proofs again: every limb against balls that start at twice the precision, every decimal, the routes once more."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from reference.blocks import LIMBS, START_BITS, compare, prove
+from reference.blocks import LIMBS, START_BITS, compare, decimals, prove
 from reference.certify import ROUTES, DisagreementError
+from reference.claims import decimal_fault, measurement_fault
 from reference.executors import opened, results
 from reference.plan import Group
 from reference.store import DatasetError, load
+from reference.store.schema import ATTRIBUTE_LIMIT
 
 if TYPE_CHECKING:
     import os
@@ -35,8 +36,9 @@ class Proof:
         name: path without the leading slash.
         elements: how many were proven again; each has three limbs.
         wrong: how many differ in a limb.
-        first: the first that differs, in words; empty where none does.
+        first: the first that differs, in words, or what else the file says wrongly of it; empty where nothing does.
         digits: for each route that was asked again, the digits to which it agrees.
+        decimals: for a variable that has them, the proven decimals by element.
     """
 
     name: str
@@ -44,6 +46,7 @@ class Proof:
     wrong: int = 0
     first: str = ""
     digits: dict[str, float] = field(default_factory=dict)
+    decimals: dict[int, str] = field(default_factory=dict)
 
     @property
     def holds(self) -> bool:
@@ -80,15 +83,26 @@ def verify(
     }
     total = sum(1 for group in groups for _ in group.blocks())
     with opened(executor, jobs) as pool:
-        again = partial(prove, bits=2 * START_BITS)
         blocks = (block for group in groups for block in group.blocks())
-        for done, (block, limbs) in enumerate(results(pool, again, blocks, jobs), 1):
+        for done, (block, (limbs, again)) in enumerate(results(pool, _again, blocks, jobs), 1):
             _compare(dataset, block, limbs, proofs)
+            for quantity, text in zip(block.row.quantities, again, strict=False):
+                proofs[block.layout.path, quantity.name].decimals[block.element] = text
             if progress:
                 progress(done, total)
         for block, digits in results(pool, _routes, _sample(groups), jobs):
             _note_routes(block, digits, proofs)
+    for proof in proofs.values():
+        said, texts = dataset[proof.name], [proof.decimals[element] for element in sorted(proof.decimals)]
+        proof.first = (
+            proof.first or decimal_fault(said, texts, ATTRIBUTE_LIMIT) or measurement_fault(said, proof.digits)
+        )
     return list(proofs.values())
+
+
+def _again(block: Block) -> tuple[np.ndarray, tuple[str, ...]]:
+    """The proven limbs from twice the precision of the build, and the proven decimals."""
+    return prove(block, 2 * START_BITS), decimals(block)
 
 
 def _group(dataset: Dataset, path: str) -> Group:

@@ -57,9 +57,11 @@ def regular_file(path: str | os.PathLike[str]) -> Path:
     """Return ``path`` where it is a file with something in it.
 
     Raises:
-        FileNotFoundError: there is nothing of this name.
+        FileNotFoundError: there is nothing of this name, or the name is empty.
         DatasetError: it is a folder, a device, empty or unreadable.
     """
+    if not os.fspath(path):
+        raise FileNotFoundError("the path is empty; the path of a dataset is accepted.")
     found = Path(path)
     try:
         status = found.stat()

@@ -13,21 +13,26 @@ import h5py
 from h5py import h5d, h5o, h5t, h5z
 
 from reference.catalogue import LAYOUTS
-from reference.names import unknown
+from reference.names import short, unknown
 from reference.store.content import dimensions, parameters_of, text_attribute
 from reference.store.errors import DatasetError
 from reference.store.schema import (
     ATTRIBUTE_LIMIT,
+    FEW,
     LIMB,
     PROVENANCE,
-    ROOT,
     SCHEMA_VERSION,
     TAIL_LIMBS,
     arrays,
+    exact_texts,
+    group_attributes,
     limb_axis,
+    root_attributes,
 )
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from reference.plan import Layout
     from reference.store.schema import Array
 
@@ -65,8 +70,8 @@ class Inspection:
         version = text_attribute(self._file, "schema_version")
         if version != SCHEMA_VERSION:
             raise self._refuse("/", f"has schema version '{version}'; version '{SCHEMA_VERSION}' is read")
-        for name in (*ROOT, "version", "profile", "command", "fingerprint"):
-            text_attribute(self._file, name)
+        told = {name: text_attribute(self._file, name) for name in ("version", "profile", "fingerprint")}
+        self._says(self._file, root_attributes(told["version"], told["profile"]))
         paths = {layout.path: layout for layout in LAYOUTS}
         self._array(self._member(self._file, LIMB, h5py.Dataset), limb_axis(), {LIMB: TAIL_LIMBS})
         found = self._tree(self._file, paths, {LIMB, PROVENANCE})
@@ -127,6 +132,8 @@ class Inspection:
         parameters = parameters_of(group)
         if set(parameters) != {parameter.name for parameter in layout.parameters}:
             raise self._refuse(group.name, f"has the parameters {sorted(parameters)}, not the schema's")
+        self._attributes(group)
+        self._says(group, group_attributes(layout, parameters))
         expected = {array.name: array for array in arrays(layout)}
         self._names(group, set(expected))
         lengths = {LIMB: TAIL_LIMBS}
@@ -145,12 +152,26 @@ class Inspection:
         self._dims[dataset.name] = array.dims
         if bool(dataset.is_scale) != array.is_scale:
             raise self._refuse(dataset.name, f"is {'not ' if array.is_scale else ''}a dimension scale")
-        for name in ("units", "definition", "long_name"):
-            text = text_attribute(dataset, name)
-            if name == "units" and text != array.attributes[name]:
+        self._says(dataset, array.attributes)
+        if array.is_input:
+            self._repeats(dataset)
+
+    def _says(self, target: Any, expected: Mapping[str, str | float]) -> None:
+        """Every attribute that the schema knows beforehand is there, and says what the schema says."""
+        for name, value in expected.items():
+            if isinstance(value, str) and (text := text_attribute(target, name)) != value:
                 raise self._refuse(
-                    dataset.name, f"has the units '{text}' where '{array.attributes[name]}' are expected"
+                    target.name, f"has the attribute '{name}' = '{short(text)}' where '{short(value)}' is expected"
                 )
+
+    def _repeats(self, dataset: h5py.Dataset) -> None:
+        """A few inputs are repeated as decimals and hex floats, and those are the numbers themselves."""
+        few = dataset.dtype.kind == "f" and dataset.size <= FEW
+        expected = exact_texts(dataset[...].tolist()) if few else {}
+        self._says(dataset, expected)
+        for name in ("decimal", "hex"):
+            if name in dataset.attrs and name not in expected:
+                raise self._refuse(dataset.name, f"has the attribute '{name}', which inputs like it do not have")
 
     def _storage(self, dataset: h5py.Dataset, array: Array) -> None:
         """Type, storage, filters and chunks, before any element is read."""

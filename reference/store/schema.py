@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping
+    from collections.abc import Iterator, Mapping, Sequence
 
     from reference.plan import Component, Coordinate, Layout
 
@@ -24,6 +24,9 @@ __all__ = [
     "SCHEMA_VERSION",
     "Array",
     "arrays",
+    "exact_texts",
+    "group_attributes",
+    "limb_axis",
     "root_attributes",
 ]
 
@@ -67,11 +70,30 @@ def root_attributes(version: str, profile: str) -> dict[str, str]:
     }
 
 
+def exact_texts(numbers: Sequence[float]) -> dict[str, str]:
+    """The attributes in which a few exact inputs are repeated for readers: shortest decimals, and hex floats."""
+    return {"decimal": " ".join(map(repr, numbers)), "hex": " ".join(number.hex() for number in numbers)}
+
+
+def group_attributes(layout: Layout, parameters: Mapping[str, float]) -> dict[str, str | float]:
+    """The attributes of a group with these fixed parameters."""
+    found: dict[str, str | float] = {
+        "long_name": layout.long_name,
+        "parameters": " ".join(parameter.name for parameter in layout.parameters),
+    }
+    for parameter in layout.parameters:
+        name, number = parameter.name, float(parameters[parameter.name])
+        found |= {name: number, f"{name}_units": parameter.units, f"{name}_long_name": parameter.long_name}
+        found |= {f"{name}_{kind}": text for kind, text in exact_texts([number]).items()}
+    return found
+
+
 @dataclass(frozen=True)
 class Array:
     """One dataset of a group: what it must look like.
 
     ``dims`` are the names of its axes, ``limb`` the root's; ``attributes`` those that are known beforehand.
+    An input's numbers may be repeated in its attributes.
     """
 
     name: str
@@ -79,6 +101,7 @@ class Array:
     dims: tuple[str, ...]
     attributes: Mapping[str, str]
     is_scale: bool = False
+    is_input: bool = False
 
 
 def arrays(layout: Layout) -> Iterator[Array]:
@@ -86,7 +109,7 @@ def arrays(layout: Layout) -> Iterator[Array]:
     for coordinate in layout.coordinates:
         dimension = layout.dimension_of(coordinate.name)
         own = coordinate.name == dimension
-        yield Array(coordinate.name, coordinate.dtype, (dimension,), _described(coordinate), is_scale=own)
+        yield Array(coordinate.name, coordinate.dtype, (dimension,), _described(coordinate), own, is_input=True)
     for variable in layout.variables:
         yield from _variable_arrays(layout, variable)
 

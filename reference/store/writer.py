@@ -18,6 +18,8 @@ from reference.store.schema import (
     PROVENANCE,
     TAIL_LIMBS,
     arrays,
+    exact_texts,
+    group_attributes,
     limb_axis,
     root_attributes,
 )
@@ -88,12 +90,7 @@ def writing(path: Path, plan: Plan) -> Iterator[Writer]:
 def _create_group(file: h5py.File, group: Group, limb: h5py.Dataset) -> None:
     layout = group.layout
     target = file.create_group(layout.path)
-    _describe(target, {"long_name": layout.long_name, "parameters": " ".join(p.name for p in layout.parameters)})
-    for parameter in layout.parameters:
-        number = float(group.parameters[parameter.name])
-        described: dict[str, str | float] = {"": number, "_units": parameter.units, "_long_name": parameter.long_name}
-        described |= {"_decimal": repr(number), "_hex": number.hex()}
-        _describe(target, {parameter.name + suffix: value for suffix, value in described.items()})
+    _describe(target, group_attributes(layout, group.parameters))
     scales = {LIMB: limb}
     for array in arrays(layout):
         shape = (*group.size(array.dims[:-1]), TAIL_LIMBS) if array.dims[-1] == LIMB else group.size(array.dims)
@@ -128,9 +125,7 @@ def _create(parent: h5py.Group, array: Array, shape: tuple[int, ...], data: np.n
     if "flag_meanings" in array.attributes:
         dataset.attrs.create("flag_values", np.arange(shape[0], dtype="<i4"))
     if data is not None and array.name != LIMB and array.dtype.kind == "f" and data.size <= FEW:
-        numbers = [float(number) for number in data]
-        exact = {"decimal": " ".join(map(repr, numbers)), "hex": " ".join(number.hex() for number in numbers)}
-        _describe(dataset, exact)
+        _describe(dataset, exact_texts([float(number) for number in data]))
     return dataset
 
 

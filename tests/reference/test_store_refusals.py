@@ -91,6 +91,10 @@ def test_a_missing_file_is_a_file_not_found_error(tmp_path):
         load(tmp_path / "missing.h5")
 
 
+def say(target, name, text):
+    target.attrs.create(name, text.encode(), dtype=h5py.string_dtype("utf-8", len(text)))
+
+
 def other_schema(file):
     file.attrs["schema_version"] = np.bytes_("2")
     return "/", "attribute"
@@ -190,7 +194,10 @@ def other_number(file):
 
 
 def other_parameter(file):
-    file["pendulum/libration"].attrs.modify("g", np.float64(9.8))
+    group = file["pendulum/libration"]
+    group.attrs.modify("g", np.float64(9.8))
+    say(group, "g_decimal", "9.8")
+    say(group, "g_hex", (9.8).hex())
     return ("fingerprint",)
 
 
@@ -271,3 +278,42 @@ def test_another_schema_version_is_refused_with_both_versions_named(copy):
     with h5py.File(copy, "r+", libver=("v110", "v110")) as file:
         file.attrs.create("schema_version", b"99", dtype=h5py.string_dtype("utf-8", 2))
     refused(copy, "'99'", "'1'")
+
+
+@pytest.mark.parametrize(
+    ("path", "name", "text"),
+    [
+        ("/", "license", "CC0-1.0"),
+        ("/", "inputs", "exact decimals"),
+        ("/", "Conventions", "CF-1.0"),
+        ("/", "creators", "Somebody Else"),
+        ("/", "command", "python -m reference build --profile full"),
+        ("/pendulum/libration", "g_decimal", "9.82"),
+        ("/pendulum/libration", "g_hex", "0x1.0p+3"),
+        ("/pendulum/libration", "g_units", "ft s-2"),
+        ("/pendulum/libration", "parameters", "length g"),
+        ("/pendulum/libration", "long_name", "pendulum"),
+        ("/pendulum/libration/amplitude", "decimal", "0.5 2.1"),
+        ("/pendulum/libration/amplitude", "hex", "0x1.0000000000000p-1 0x1.0000000000001p+1"),
+        ("/pendulum/libration/event", "decimal", "0 1"),
+        ("/pendulum/libration/period", "definition", "T = 2 pi sqrt(l/g)"),
+        ("/pendulum/libration/period", "reference", "hearsay"),
+        ("/limb", "definition", "x = value - tail[0]"),
+    ],
+)
+def test_an_attribute_that_says_something_else_than_schema_or_numbers_is_refused(copy, path, name, text):
+    with h5py.File(copy, "r+", libver=("v110", "v110")) as file:
+        say(file[path], name, text)
+    refused(copy, f"{path} has the attribute '{name}'")
+
+
+@pytest.mark.parametrize(("path", "name"), [("/", "license"), ("/pendulum/libration", "g_units")])
+def test_a_missing_attribute_is_refused(copy, path, name):
+    with h5py.File(copy, "r+", libver=("v110", "v110")) as file:
+        del file[path].attrs[name]
+    refused(copy, f"{path} has no attribute '{name}'")
+
+
+def test_an_empty_path_is_said_to_be_empty():
+    with pytest.raises(FileNotFoundError, match=r"^the path is empty; the path of a dataset is accepted\.$"):
+        load("")

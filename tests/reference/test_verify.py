@@ -12,6 +12,7 @@ from reference.certify import DisagreementError
 from reference.plan import Group, Plan
 from reference.store import DatasetError
 from reference.store.content import fingerprint
+from reference.store.schema import exact_texts
 from reference.verify import verify
 
 TINY = Plan(
@@ -27,10 +28,20 @@ def built(tmp_path):
     return path
 
 
+def say(target, name, value):
+    """Give an attribute another value, of the type that the schema has for it."""
+    if isinstance(value, str):
+        target.attrs.create(name, value.encode(), dtype=h5py.string_dtype("utf-8", len(value)))
+    else:
+        target.attrs.create(name, np.array(value, dtype="<f8" if isinstance(value, float) else "<i4"))
+
+
 def forge(path, change):
-    """Change a file and put every checksum right again, as a forger would."""
+    """Change a file and put every checksum and every spelling of an input right again, as a forger would."""
     with h5py.File(path, "r+", libver=("v110", "v110")) as file:
         change(file)
+        for name, text in exact_texts(file["pendulum/dimensionless/amplitude"][...].tolist()).items():
+            say(file["pendulum/dimensionless/amplitude"], name, text)
         text = fingerprint(file).encode()
         file.attrs.create("fingerprint", text, dtype=h5py.string_dtype("utf-8", len(text)))
     (path.parent / "SHA256SUMS").unlink()
@@ -91,3 +102,62 @@ def test_a_route_that_disagrees_fails_its_variables(built, monkeypatch):
         "state differs by taylor.",
         "period differs by taylor.",
     ]
+
+
+def test_a_wrong_digit_of_a_published_decimal_is_found(built):
+    def change(file):
+        period = file["pendulum/dimensionless/period"]
+        text = period.attrs["decimal"].decode()
+        say(period, "decimal", text[:-1] + str((int(text[-1]) + 1) % 10))
+
+    forge(built, change)
+    period = verify(built)[2]
+    assert not period.holds
+    assert period.wrong == 0
+    assert "'decimal' says 8.3497" in period.first
+    assert "of element 1, which is proven to be 8.3497" in period.first
+
+
+@pytest.mark.parametrize(
+    ("variable", "name", "value"),
+    [
+        ("period", "decimal", "6.38279"),
+        ("period", "decimal", None),
+        ("theta", "decimal", "0.5 2.0"),
+        ("theta", "taylor_digits", 44.9),
+        ("theta", "taylor_digits", 99.0),
+        ("theta", "taylor_digits", float("nan")),
+        ("theta", "taylor_digits", float("inf")),
+        ("theta", "taylor_digits", 60),
+        ("theta", "taylor_digits", None),
+        ("theta", "taylor_reason", "the taylor route does not give this quantity"),
+        ("theta", "quadrature_checked_elements", 0),
+        ("theta", "quadrature_checked_elements", 7),
+        ("theta", "quadrature_checked_elements", -1),
+        ("theta", "quadrature_checked_elements", None),
+        ("theta", "checked_elements", 5),
+    ],
+)
+def test_what_the_file_says_of_its_proofs_must_be_possible(built, variable, name, value):
+    def change(file):
+        target = file[f"pendulum/dimensionless/{variable}"]
+        if value is None:
+            del target.attrs[name]
+        else:
+            say(target, name, value)
+
+    forge(built, change)
+    failed = [proof for proof in verify(built) if not proof.holds]
+    assert [proof.name.rpartition("/")[2] for proof in failed] == [variable]
+    assert f"'{name}'" in failed[0].first
+
+
+def test_a_route_that_is_said_not_to_serve_must_not_serve(built):
+    def change(file):
+        target = file["pendulum/dimensionless/theta"]
+        del target.attrs["taylor_digits"]
+        say(target, "taylor_checked_elements", 0)
+        say(target, "taylor_reason", "the taylor route does not give this quantity")
+
+    forge(built, change)
+    assert [proof.holds for proof in verify(built)] == [False, True, True]
