@@ -7,8 +7,7 @@ import os
 import signal
 import threading
 from collections import deque
-from concurrent.futures import FIRST_COMPLETED, Executor, Future, ProcessPoolExecutor, wait
-from concurrent.futures.process import BrokenProcessPool
+from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Executor, Future, ProcessPoolExecutor, wait
 from contextlib import contextmanager
 from importlib import import_module
 from typing import TYPE_CHECKING, Any, TypeVar
@@ -41,6 +40,10 @@ class Inline(Executor):
         future: Future[Any] = Future()
         future.set_result(fn(*args, **kwargs))
         return future
+
+    def map(self, fn: Callable[..., Any], *iterables: Iterable[Any], **_limits: Any) -> Iterator[Any]:
+        """Yield the answers, each computed when it is asked for; a limit on time or size means nothing here."""
+        return map(fn, *iterables)
 
 
 @contextmanager
@@ -132,8 +135,8 @@ def results(
             while done:
                 future = done.popleft()
                 yield running.pop(future), future.result()
-    except BrokenProcessPool:
-        raise RuntimeError(
+    except BrokenExecutor:
+        raise WorkerError(
             "a worker process died before its block was finished; the finished blocks are kept."
         ) from None
     finally:

@@ -42,6 +42,17 @@ def sdist(tmp_path_factory) -> Path:
     return build("sdist", ROOT, tmp_path_factory.mktemp("sdist"))
 
 
+def test_the_extras_that_sentences_offer_exist_with_what_they_promise():
+    sources = [
+        path.read_text("utf-8") for package in ("reference", "compare") for path in (ROOT / package).rglob("*.py")
+    ]
+    offered = {name for path in paths for name in re.findall(r"horologium\[(\w+)\]", path.read_text("utf-8"))}
+    extras = PROJECT["optional-dependencies"]
+    assert {"cluster", "xarray"} <= offered <= set(extras)
+    assert [REQUIREMENT.match(line)[1] for line in extras["cluster"]] == ["dask", "mpi4py"]
+    assert "xarray>=2024.10" in extras["xarray"]  # the first with DataTree
+
+
 def names_in(wheel: Path) -> set[str]:
     with zipfile.ZipFile(wheel) as archive:
         return set(archive.namelist())

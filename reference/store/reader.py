@@ -101,9 +101,14 @@ def _plain(target: Any) -> dict[str, Any]:
     return found
 
 
+def _frozen(array: np.ndarray) -> np.ndarray:
+    array.setflags(write=False)
+    return array
+
+
 @dataclass(frozen=True, eq=False)
 class Variable:
-    """A variable of a checked dataset; its numbers are read when they are asked for.
+    """A variable of a checked dataset; its numbers are read once, when they are asked for, and cannot be changed.
 
     Attributes:
         name: path without the leading slash, such as "pendulum/libration/period".
@@ -133,12 +138,12 @@ class Variable:
     @cached_property
     def value(self) -> np.ndarray:
         """The exact values correctly rounded to binary64, or for inputs the inputs: shape ``shape``."""
-        return self.read(...)[0]
+        return _frozen(self.read(...)[0])
 
     @cached_property
     def tail(self) -> np.ndarray:
         """The two limbs after ``value``: float64 of shape ``(*shape, 2)``; zeros for inputs, which are exact."""
-        return self.read(...)[1]
+        return _frozen(self.read(...)[1])
 
     def read(self, selection: Any) -> tuple[np.ndarray, np.ndarray]:
         """``value[selection]`` and ``tail[selection]`` from the file, and no more of it."""

@@ -5,23 +5,10 @@ from __future__ import annotations
 import shutil
 from pathlib import Path
 
-import numpy as np
 import pytest
+from plans import SMALL
 
-from reference import catalogue
 from reference.build import build
-from reference.plan import Group, Plan
-
-SMALL = Plan(
-    "core",
-    (
-        Group(
-            catalogue.LIBRATION,
-            catalogue.EARTH,
-            {"amplitude": [0.5, 2.0], "time": np.arange(5) / 4, "event": [0, 1]},
-        ),
-    ),
-)
 
 
 @pytest.fixture(scope="session")

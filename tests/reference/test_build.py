@@ -6,33 +6,23 @@ import os
 import subprocess
 import sys
 import textwrap
-from contextlib import suppress
 from pathlib import Path
 
 import numpy as np
 import pytest
+from plans import TINY, leftovers
 
 import reference
 from reference import build as building
 from reference import catalogue
-from reference.blocks import Result, compute, spread
+from reference.blocks import spread
 from reference.build import build
 from reference.certify import Agreement
-from reference.executors import opened, results
-from reference.partial import BusyError, partial
 from reference.plan import BLOCK_LENGTH, Group, Plan
 from reference.store import load
 from reference.store.files import note_checksum
 
 ROOT = Path(reference.__file__).parents[1]
-TINY = Plan(
-    "core",
-    (Group(catalogue.LONG, catalogue.EARTH, {"amplitude": [0.5, 2.0, 3.0], "time": [0.0, 1.0, 2.0**20]}),),
-)
-
-
-def leftovers(folder):
-    return sorted(path.name for path in folder.iterdir())
 
 
 def test_one_job_and_two_jobs_give_the_same_bytes(tmp_path):
@@ -58,62 +48,6 @@ def test_a_date_that_is_no_number_is_refused(monkeypatch):
     monkeypatch.setenv("SOURCE_DATE_EPOCH", "today")
     with pytest.raises(ValueError, match="SOURCE_DATE_EPOCH is 'today'"):
         building.provenance()
-
-
-def test_an_interrupted_build_goes_on_where_it_stopped(tmp_path, monkeypatch):
-    whole = build(TINY, tmp_path / "whole.h5")
-    out = tmp_path / "parts.h5"
-
-    def stop(done, _total):
-        if done == 2:
-            raise KeyboardInterrupt
-
-    with pytest.raises(KeyboardInterrupt):
-        build(TINY, out, progress=stop)
-    assert not out.exists()
-    assert len(list((tmp_path / "parts.h5.partial").glob("*/*.block"))) == 2
-    again = []
-    monkeypatch.setattr(building, "compute", lambda block: again.append(block) or compute(block))
-    assert build(TINY, out) == whole
-    assert len(again) == 1
-    assert out.read_bytes() == (tmp_path / "whole.h5").read_bytes()
-    assert leftovers(tmp_path) == ["SHA256SUMS", "parts.h5", "whole.h5"]
-
-
-def interrupted(out, identity, blocks):
-    """A build that is stopped after these blocks."""
-    with suppress(KeyboardInterrupt), partial(out, identity) as finished:
-        for block in blocks:
-            finished.put(block, compute(block))
-        raise KeyboardInterrupt
-
-
-def test_a_damaged_block_is_proven_again(tmp_path):
-    out = tmp_path / "x.h5"
-    identity = TINY.identity(reference.__version__)
-    folder = tmp_path / "x.h5.partial" / identity
-    whole = build(TINY, tmp_path / "whole.h5")
-    interrupted(out, identity, TINY.blocks())
-    block = next(folder.glob("*.block"))
-    block.write_bytes(block.read_bytes()[:-1])
-    assert build(TINY, out) == whole
-
-
-def test_blocks_of_another_plan_are_not_used(tmp_path):
-    other = Plan("core", (Group(catalogue.LONG, catalogue.UNIT, TINY.groups[0].inputs),))
-    assert other.identity("1") != TINY.identity("1") != TINY.identity("2")
-    interrupted(tmp_path / "x.h5", other.identity("1"), other.blocks())
-    with partial(tmp_path / "x.h5", TINY.identity("1")) as finished:
-        assert not finished.has(next(TINY.blocks()))
-        assert len(list((tmp_path / "x.h5.partial").iterdir())) == 2
-    assert leftovers(tmp_path) == []
-
-
-def test_two_builds_of_one_file_do_not_mix(tmp_path):
-    with partial(tmp_path / "x.h5", "a"):
-        with pytest.raises(BusyError, match="another build is writing"), partial(tmp_path / "x.h5", "b"):
-            pass
-        assert (tmp_path / "x.h5.partial" / "a").exists()
 
 
 def test_a_long_row_is_cut_into_blocks_that_cover_it():
@@ -171,16 +105,6 @@ def test_a_disagreement_of_the_routes_stops_the_build_and_names_it(tmp_path, mon
     with pytest.raises(ArithmeticError, match=r"theta of Pendulum\(theta0=0.5.*quadrature"):
         build(TINY, tmp_path / "x.h5")
     assert leftovers(tmp_path) == []
-
-
-def test_a_result_survives_being_stored_and_its_damage_is_seen():
-    result = compute(next(TINY.blocks()))
-    data = result.dumped()
-    again = Result.loaded(data)
-    assert again is not None
-    assert np.array_equal(again.limbs, result.limbs)
-    assert Result.loaded(data[:-1]) is None
-    assert Result.loaded(b"") is None
 
 
 def test_spread_takes_the_first_and_the_last():
@@ -266,36 +190,6 @@ def test_between_old_and_new_file_no_checksum_is_wrong(tmp_path, monkeypatch):
         build(TINY, out)
     assert len(noted) == 2
     assert load(out).parameters["/pendulum/long"]["g"] == 9.81
-
-
-def test_never_more_than_a_few_tasks_wait_for_a_worker():
-    taken = []
-
-    def tasks():
-        for i in range(100):
-            taken.append(i)
-            yield i
-
-    with opened("process", 1) as pool:
-        for done, (task, answer) in enumerate(results(pool, abs, tasks(), 1), 1):
-            assert task == answer
-            assert len(taken) <= done + 4
-    assert len(taken) == 100
-
-
-@pytest.mark.parametrize(
-    ("name", "error", "words"),
-    [
-        ("proces", ValueError, "perhaps process"),
-        ("dask:tcp://127.0.0.1:1", ImportError, "dask.distributed is not installed"),
-        ("mpi", ImportError, "mpi4py is not installed"),
-    ],
-)
-def test_an_executor_that_is_not_there_is_one_sentence(monkeypatch, name, error, words):
-    for module in ("dask.distributed", "mpi4py.futures"):
-        monkeypatch.setitem(sys.modules, module, None)
-    with pytest.raises(error, match=words), opened(name, 2):
-        pass
 
 
 def test_profiles_hold_the_same_groups_and_full_is_a_hundred_times_core():

@@ -10,6 +10,7 @@ import h5py
 import numpy as np
 import pytest
 from h5py import h5d, h5z
+from plans import SMALL
 
 import reference
 from reference import catalogue
@@ -244,3 +245,29 @@ def test_the_datasheet_beside_the_core_dataset_is_the_one_of_the_file():
 
     sheet = core_path().parent / "README.md"
     assert sheet.read_text(encoding="utf-8") == datasheet(reference.load())
+
+
+def test_the_numbers_of_a_checked_dataset_cannot_be_changed(built):
+    dataset = load(built)
+    for name in ("pendulum/libration/theta", "pendulum/libration/time"):
+        for array in (dataset[name].value, dataset[name].tail):
+            with pytest.raises(ValueError, match="read-only"):
+                array[0] = 1
+
+
+def test_a_citation_is_dated_where_the_file_is_and_only_there(built, tmp_path, monkeypatch):
+    from reference.build import build
+    from reference.cite import cite
+
+    assert "year" not in cite(load(built))
+    assert cite(load(built), "text").startswith("The Horologium developers. Horologium:")
+    monkeypatch.setenv("SOURCE_DATE_EPOCH", "86400")
+    build(SMALL, tmp_path / "dated.h5")
+    assert "  year      = {1970},\n" in cite(load(tmp_path / "dated.h5"))
+    assert cite(load(tmp_path / "dated.h5"), "text").startswith("The Horologium developers (1970). Horologium:")
+
+
+def test_the_datasheet_explains_a_number_of_the_file_itself(built):
+    from reference.datasheet import datasheet
+
+    assert "numbers: 9.81 stands for 9.8100000000000004973799150320701301097869873046875.\n" in datasheet(load(built))
