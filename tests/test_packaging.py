@@ -43,9 +43,7 @@ def sdist(tmp_path_factory) -> Path:
 
 
 def test_the_extras_that_sentences_offer_exist_with_what_they_promise():
-    sources = [
-        path.read_text("utf-8") for package in ("reference", "compare") for path in (ROOT / package).rglob("*.py")
-    ]
+    paths = [path for package in ("reference", "compare") for path in (ROOT / package).rglob("*.py")]
     offered = {name for path in paths for name in re.findall(r"horologium\[(\w+)\]", path.read_text("utf-8"))}
     extras = PROJECT["optional-dependencies"]
     assert {"cluster", "xarray"} <= offered <= set(extras)
