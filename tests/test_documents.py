@@ -76,7 +76,7 @@ def test_python_examples_give_what_they_show(path):
 
 
 def cells(line: str) -> list[str]:
-    """The words of a table's line; below 1e-12, where processors differ, an error and its mark or order are one word."""
+    """The words of a line; below 1e-12, where processors differ, an error and its mark or order are one word."""
     return re.sub(r"\S+e-1[3-9] (\*|[\d.]+)|\S+ \*", "rounding", line).split()
 
 
