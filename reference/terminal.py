@@ -7,18 +7,17 @@ import errno
 import io
 import os
 import re
-import signal
 import sys
-import threading
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any, NoReturn
 
+from reference.interrupts import Terminated, terminable
 from reference.names import short, unknown
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
 
-__all__ = ["Parser", "Terminated", "one_of", "progress_bar", "run"]
+__all__ = ["Parser", "one_of", "progress_bar", "run"]
 
 CHOICE = re.compile(r"invalid choice: (.*?) \(choose from (.*)\)$")
 SIGNED = re.compile(r"-(\d|\.\d|inf|nan)", re.IGNORECASE)
@@ -26,10 +25,6 @@ INTERRUPTED = 130
 TERMINATED = 143
 STREAMS = 3
 """Standard input, output and error have the numbers below this one."""
-
-
-class Terminated(BaseException):
-    """The process was asked to end: as an exception, so that whatever has something to clear away does."""
 
 
 class Parser(argparse.ArgumentParser):
@@ -110,7 +105,7 @@ def progress_bar(title: str, *, quiet: bool) -> Iterator[Callable[[int, int], No
 
 def run(command: Callable[[Sequence[str] | None], int], arguments: Sequence[str] | None = None) -> int:
     """Run a command and return its exit code; what a user can cause ends in one sentence on stderr and code 2."""
-    with _streams(), _terminable():
+    with _streams(), terminable():
         try:
             code = command(arguments)
             sys.stdout.flush()
@@ -128,24 +123,6 @@ def run(command: Callable[[Sequence[str] | None], int], arguments: Sequence[str]
             _give_up_a_full_output()
             return 2
         return code
-
-
-@contextmanager
-def _terminable() -> Iterator[None]:
-    """Let the signal to terminate raise Terminated, once; elsewhere than in the main thread nothing can."""
-    if threading.current_thread() is not threading.main_thread() or signal.getsignal(signal.SIGTERM) != signal.SIG_DFL:
-        yield
-        return
-
-    def terminate(number: int, _frame: object) -> NoReturn:
-        signal.signal(number, signal.SIG_IGN)
-        raise Terminated
-
-    signal.signal(signal.SIGTERM, terminate)
-    try:
-        yield
-    finally:
-        signal.signal(signal.SIGTERM, signal.SIG_DFL)
 
 
 class Closed(io.TextIOBase):

@@ -9,6 +9,7 @@ import h5py
 import numpy as np
 from h5py import h5d, h5p, h5s, h5t
 
+from reference.interrupts import held
 from reference.plan import BLOCK_LENGTH
 from reference.store.content import fingerprint
 from reference.store.schema import (
@@ -26,7 +27,7 @@ from reference.store.schema import (
 from reference.store.sink import Sink
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping
+    from collections.abc import Callable, Iterator, Mapping
     from pathlib import Path
 
     from reference.plan import Block, Group, Plan
@@ -40,8 +41,8 @@ VERSION_BOUND = ("v110", "v110")
 class Writer:
     """An open file that takes the plan's blocks one by one."""
 
-    def __init__(self, file: h5py.File, plan: Plan, sink: Sink) -> None:
-        self._file, self._sink = file, sink
+    def __init__(self, file: h5py.File, plan: Plan, check: Callable[[], None]) -> None:
+        self._file, self._check = file, check
         limb = _create(file, limb_axis(), (TAIL_LIMBS,), np.arange(TAIL_LIMBS))
         for group in plan.groups:
             _create_group(file, group, limb)
@@ -56,7 +57,7 @@ class Writer:
             path = f"{block.layout.path}/{variable.quantity.name}"
             self._file[path][at] = found[..., 0]
             self._file[f"{path}_tail"][at] = found[..., 1:]
-        self._sink.check()
+        self._check()
 
     @staticmethod
     def _variables(block: Block) -> list[Any]:
@@ -76,14 +77,19 @@ class Writer:
 
 @contextmanager
 def writing(path: Path, plan: Plan) -> Iterator[Writer]:
-    """Open a file for a plan, laid out and its inputs written.
+    """Open a file for a plan, laid out and its inputs written; interrupts wait until no write is under way.
 
     Raises:
         OSError: a write failed; the file is closed and worthless.
     """
-    with Sink(path) as sink:
+    with held() as let_in, Sink(path) as sink:
+
+        def check() -> None:
+            sink.check()
+            let_in()
+
         with h5py.File(sink, "w", libver=VERSION_BOUND, track_order=False) as file:
-            yield Writer(file, plan, sink)
+            yield Writer(file, plan, check)
         sink.check()
 
 

@@ -14,7 +14,8 @@ import pytest
 
 import reference
 from reference.__main__ import main
-from reference.terminal import Parser, Terminated, run
+from reference.interrupts import Terminated, held
+from reference.terminal import Parser, run
 
 ROOT = Path(reference.__file__).parents[1]
 AT = ["at", "pendulum", "--theta0", "1"]
@@ -138,6 +139,44 @@ def test_the_signal_to_terminate_ends_a_command_in_good_order(capsys):
     assert cleared == [signal.SIG_IGN]  # once is enough: a second signal does not stop the clearing
     assert signal.getsignal(signal.SIGTERM) == signal.SIG_DFL
     assert not issubclass(Terminated, Exception)
+
+
+@pytest.mark.parametrize(("number", "code"), [(signal.SIGTERM, 143), (signal.SIGINT, 130)])
+@pytest.mark.parametrize("call", [1, 5, 40])
+def test_a_signal_while_hdf5_writes_ends_the_build_and_leaves_no_file(tmp_path, monkeypatch, number, code, call):
+    """HDF5 calls the sink: an exception there would be lost, and a file with a hole would take the old one's place."""
+    from plans import TINY
+
+    from reference.build import build
+    from reference.store.sink import Sink
+
+    calls = []
+    write = Sink.write
+
+    def signalled(self, data):
+        calls.append(data)
+        if len(calls) == call:
+            os.kill(os.getpid(), number)
+        return write(self, data)
+
+    monkeypatch.setattr(Sink, "write", signalled)
+    before = signal.getsignal(signal.SIGINT)
+    assert run(lambda _: build(TINY, tmp_path / "x.h5") and 0) == code
+    assert [path.name for path in tmp_path.iterdir()] == ["x.h5.partial"]
+    assert signal.getsignal(signal.SIGINT) is before
+
+
+def test_signals_that_are_held_come_when_they_are_let_in_or_at_the_end():
+    come = []
+    with pytest.raises(KeyboardInterrupt), held() as let_in:  # noqa: PT012 (the block is what is tested)
+        os.kill(os.getpid(), signal.SIGINT)
+        come.append("held")
+        let_in()
+        come.append("never")
+    with pytest.raises(KeyboardInterrupt), held():  # noqa: PT012 (the same)
+        os.kill(os.getpid(), signal.SIGINT)
+        come.append("held")
+    assert come == ["held", "held"]
 
 
 def test_a_command_runs_in_any_thread():
