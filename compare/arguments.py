@@ -12,6 +12,7 @@ from reference.terminal import Parser, one_of
 if TYPE_CHECKING:
     import argparse
     from collections.abc import Callable, Sequence
+    from fractions import Fraction
 
 __all__ = ["COMMANDS", "Request", "parse"]
 
@@ -27,6 +28,7 @@ _OPTIONS: dict[str, tuple[str | None, str]] = {
     "--t-end": ("T", "end of the march in s (default 10)"),
     "--methods": ("A,B", "methods by name (default all; see 'list'); may repeat"),
     "--n": ("N,M", "numbers of steps (default 128, 256, ... 1048576); may repeat"),
+    "--exact": (None, "take numbers as written: decimals, or fractions such as 1/3"),
     "--precision": ("P", "float32, float64 (default), longdouble, float128 or mp:BITS"),
     "--format": ("FORM", f"{', '.join(FORMATS)} (default text)"),
     "--out": ("DIR", "also write the tables, in the chosen format, into this folder"),
@@ -35,7 +37,10 @@ _OPTIONS: dict[str, tuple[str | None, str]] = {
 }
 _ACCEPTED = {"pendulum": tuple(_OPTIONS), "list": ("--format",)}
 _LISTS = ("--theta0", "--methods", "--n")
-_EPILOG = "A number is read as binary64, as in a program.  A mistake is one sentence on stderr and exit code 2."
+_EPILOG = (
+    "A number is read as binary64, as in a program, or with --exact as written.  "
+    "A mistake is one sentence on stderr and exit code 2."
+)
 
 
 @dataclass(frozen=True)
@@ -99,14 +104,15 @@ def _add(parser: argparse.ArgumentParser, option: str) -> None:
 
 
 def _study_options(known: argparse.Namespace) -> dict[str, Any]:
+    number = _as_written if known.exact else _number
     given: dict[str, Any] = {
         name: _several(name, getattr(known, name), read)
-        for name, read in (("theta0", _number), ("methods", _name), ("n", _whole))
+        for name, read in (("theta0", number), ("methods", _name), ("n", _whole))
         if getattr(known, name) is not None
     }
     for name in ("g", "length", "t_end"):
         if getattr(known, name) is not None:
-            given[name] = _number(getattr(known, name), name.replace("_", "-"))
+            given[name] = number(getattr(known, name), name.replace("_", "-"))
     if known.precision is not None:
         given["precision"] = known.precision
     return given
@@ -133,6 +139,12 @@ def _number(piece: str, name: str) -> float:
         return float(piece)
     except ValueError as error:
         raise ValueError(f"--{name} '{short(piece)}' is not a number; one such as 1 or 2.5e-3 is accepted.") from error
+
+
+def _as_written(piece: str, name: str) -> Fraction:
+    from reference.exact import exact
+
+    return exact(piece, f"--{name}")
 
 
 def _whole(piece: str, name: str) -> int:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -45,7 +46,7 @@ def error_figure(study: Study, theta0: float) -> Figure:
     _draw_curves(axes, curves, _ink(study), lambda cell: cell.n)
     _draw_slopes(axes, study, curves)
     axes.set_xlabel("number of steps N")
-    _add_step_sizes(axes, float(study.parameters["t_end"]))
+    _add_step_sizes(axes, float(Fraction(study.parameters["t_end"])))
     return figure
 
 

@@ -13,6 +13,7 @@ from compare.scoring import DEFAULT_N, score_all, some
 from reference import Pendulum, __version__
 from reference.certify import ROUTES
 from reference.compiler import hy
+from reference.exact import as_number
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -64,10 +65,10 @@ def study(
     return Study(
         problem="pendulum",
         parameters={
-            "theta0": [float(problem.theta0) for problem in problems],
-            "g": float(problems[0].g),
-            "length": float(problems[0].length),
-            "t_end": float(scored.t_end),
+            "theta0": [as_number(problem.theta0) for problem in problems],
+            "g": as_number(problems[0].g),
+            "length": as_number(problems[0].length),
+            "t_end": as_number(scored.t_end),
             "samples": SAMPLES,
         },
         reference={

@@ -84,6 +84,20 @@ def test_the_tables_are_text_by_default(capsys):
     assert [f"Error against N, theta0 = {value} rad" in out for value in ("0.5", "1.0", "2.0")] == [True] * 3
 
 
+def test_numbers_can_be_taken_as_written(capsys):
+    words = [*SMALL, "--exact", "--theta0", "1/10", "--g", "9.81", "--format", "json"]
+    assert main(words) == 0
+    found = json.loads(capsys.readouterr().out)
+    assert found["parameters"]["theta0"] == ["0.1"]
+    assert found["parameters"]["g"] == "9.81"
+    assert main([*SMALL, "--theta0", "0.1", "--format", "json"]) == 0
+    rounded = json.loads(capsys.readouterr().out)
+    assert rounded["parameters"]["theta0"] == [0.1]
+    assert rounded["tables"]["error_vs_n"] != found["tables"]["error_vs_n"]
+    assert main(["pendulum", "--theta0", "1/10"]) == 2
+    assert "--theta0 '1/10' is not a number" in capsys.readouterr().err
+
+
 def test_options_given_reach_the_study_and_others_do_not():
     request = arguments.parse(["pendulum", "--g", "9", "--t-end=20", "--theta0", "1e-3,2", "--n", "8", "--plots"])
     assert request.options == {"g": 9.0, "t_end": 20.0, "theta0": (1e-3, 2.0), "n": (8,)}
