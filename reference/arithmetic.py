@@ -32,8 +32,12 @@ class Arithmetic(Protocol):
 class EllipticArithmetic(Arithmetic, Protocol):
     """What a closed form may ask for besides."""
 
-    def tan(self, x: Any) -> Any: ...
+    def pi(self) -> Any: ...
     def atan(self, x: Any) -> Any: ...
+    def atan2(self, y: Any, x: Any) -> Any: ...
+    def sinh(self, x: Any) -> Any: ...
+    def cosh(self, x: Any) -> Any: ...
+    def floor(self, x: Any) -> Any: ...
     def elliptic(self, k: Any, kc: Any) -> Any: ...
 
 
@@ -55,12 +59,30 @@ class Ball:
         return x.cos()
 
     @staticmethod
-    def tan(x: arb) -> arb:
-        return x.tan()
+    def pi() -> arb:
+        return arb.pi()
 
     @staticmethod
     def atan(x: arb) -> arb:
         return x.atan()
+
+    @staticmethod
+    def atan2(y: arb, x: arb) -> arb:
+        return arb.atan2(y, x)
+
+    @staticmethod
+    def sinh(x: arb) -> arb:
+        return x.sinh()
+
+    @staticmethod
+    def cosh(x: arb) -> arb:
+        return x.cosh()
+
+    @staticmethod
+    def floor(x: arb) -> arb:
+        """The integer below every point of the ball; not a number where there is more than one."""
+        whole = x.floor().unique_fmpz()
+        return arb.nan() if whole is None else arb(whole)
 
     @staticmethod
     def sqrt(x: arb) -> arb:
@@ -73,9 +95,16 @@ class Mpmath:
     elliptic = staticmethod(MpmathElliptic)
     sin = staticmethod(mp.sin)
     cos = staticmethod(mp.cos)
-    tan = staticmethod(mp.tan)
     atan = staticmethod(mp.atan)
+    atan2 = staticmethod(mp.atan2)
+    sinh = staticmethod(mp.sinh)
+    cosh = staticmethod(mp.cosh)
+    floor = staticmethod(mp.floor)
     sqrt = staticmethod(mp.sqrt)
+
+    @staticmethod
+    def pi() -> Any:
+        return +mp.pi
 
     @staticmethod
     def number(value: Fraction) -> Any:

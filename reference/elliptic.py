@@ -29,6 +29,9 @@ class Elliptic(Protocol):
     def epsilon(self, u: Any) -> Any:
         """E(am u), the incomplete integral of the second kind at the amplitude of u (DLMF 22.16.14)."""
 
+    def incomplete(self, phi: Any) -> Any:
+        """F(phi), the incomplete integral of the first kind: the u with am u = phi."""
+
 
 class BallElliptic:
     """By theta functions of z = u/2K and tau = i K'/K (DLMF 22.2.4-9); every result encloses the exact value."""
@@ -48,6 +51,9 @@ class BallElliptic:
         t1, t2, t3, t4 = (theta.real for theta in acb(u / (2 * self.first)).modular_theta(self._tau))
         sn, cn, dn = self._scale
         return sn * t1 / t4, cn * t2 / t4, dn * t3 / t4
+
+    def incomplete(self, phi: arb) -> arb:
+        return acb.elliptic_f(acb(phi), acb(self.k * self.k)).real
 
     def epsilon(self, u: arb) -> arb:
         period = 2 * self.first
@@ -69,6 +75,9 @@ class MpmathElliptic:
 
     def functions(self, u: Any) -> tuple[Any, Any, Any]:
         return tuple(mp.ellipfun(name, u, m=self.m) for name in ("sn", "cn", "dn"))
+
+    def incomplete(self, phi: Any) -> Any:
+        return mp.ellipf(phi, self.m)
 
     def epsilon(self, u: Any) -> Any:
         halves = mp.nint(u / (2 * self.first))

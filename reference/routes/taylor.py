@@ -11,7 +11,7 @@ import numpy as np
 from reference.arithmetic import Heyoka
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Callable, Sequence
 
     from reference.problem import Problem
 
@@ -73,13 +73,13 @@ class Flow:
         }
         return [found[time] for time in times]
 
-    def zeros(self, component: int, until: float) -> list[Fraction]:
-        """The times in (0, until] at which a component of the state crosses zero."""
+    def zeros(self, event: Callable[[Heyoka, Sequence[Any]], Any], until: float) -> list[Fraction]:
+        """The times in (0, until] at which a function of the state, event(m, y), crosses zero."""
         crossings: list[Fraction] = []
-        event = self._hy.nt_event_real(
-            self._variables[component], lambda _ta, time, _sign: crossings.append(to_fraction(time))
+        crossing = self._hy.nt_event_real(
+            event(Heyoka(self._real), self._variables), lambda _ta, time, _sign: crossings.append(to_fraction(time))
         )
-        self._integrator(nt_events=[event]).propagate_until(self._real(Fraction(until)))
+        self._integrator(nt_events=[crossing]).propagate_until(self._real(Fraction(until)))
         return [time for time in crossings if time > Fraction(until) / 10**9]
 
 

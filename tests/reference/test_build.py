@@ -98,7 +98,7 @@ def test_a_trajectory_that_a_route_left_out_stops_the_build(tmp_path, monkeypatc
 
 
 def test_a_disagreement_of_the_routes_stops_the_build_and_names_it(tmp_path, monkeypatch):
-    from reference.problems.pendulum.libration import QuadratureLibration
+    from reference.problems.pendulum.motions import QuadratureLibration
 
     original = QuadratureLibration.state
     monkeypatch.setattr(QuadratureLibration, "state", lambda self, t: tuple(2 * value for value in original(self, t)))

@@ -1,10 +1,11 @@
-"""The pendulum released from rest, as a problem: exact parameters, proven answers."""
+"""The pendulum from any start, as a problem: exact parameters, proven answers."""
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import cached_property
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from flint import arb, ctx
@@ -15,8 +16,16 @@ from reference.exact import as_number, exact
 from reference.limbs import ziv
 from reference.problem import Row, SeparableProblem
 from reference.problems.pendulum.equations import angular_acceleration, energy_above_rest
-from reference.problems.pendulum.libration import Libration, QuadratureLibration, TaylorLibration
-from reference.problems.pendulum.quantities import ROWS
+from reference.problems.pendulum.motions import (
+    Libration,
+    Motion,
+    QuadratureLibration,
+    QuadratureRotation,
+    Rotation,
+    Separatrix,
+)
+from reference.problems.pendulum.quantities import ROWS, SERVED
+from reference.problems.pendulum.taylor import TaylorMotion
 from reference.routes import quadrature
 
 if TYPE_CHECKING:
@@ -26,19 +35,27 @@ if TYPE_CHECKING:
 
 __all__ = ["MAX_EVENTS", "Events", "Pendulum"]
 
+CLOSED_FORMS: dict[str, type[Motion]] = {"libration": Libration, "rotation": Rotation, "separatrix": Separatrix}
+BY_QUADRATURE: dict[str, type[Motion]] = {
+    **CLOSED_FORMS,
+    "libration": QuadratureLibration,
+    "rotation": QuadratureRotation,
+}
 NOT_BY_TAYLOR = ("modulus", "complementary_modulus")
 TAYLOR_RADIANS = 4000
-"""The Taylor route serves times up to omega0 t = TAYLOR_RADIANS: beyond, its work would grow without bound."""
+"""The Taylor route serves times up to sqrt(g/l) t = TAYLOR_RADIANS: beyond, its work would grow without bound."""
 TAYLOR_BITS = 1024
-"""The Taylor route serves amplitudes that need at most this working precision."""
+"""The Taylor route serves starts that need at most this working precision."""
 ROUTE_BITS = 8192
 """No route but the enclosure serves what needs more working precision than this."""
 MAX_EVENTS = 100_000
+DECISION_BITS = 128
+PI = Fraction(math.pi)
 
 
 @dataclass(frozen=True)
 class Events:
-    """Proven times in s: where theta = 0, and where theta' = 0 after the start."""
+    """Proven times in s: where the pendulum hangs at the bottom, and where it turns back, after the start."""
 
     zero_crossings: tuple[Certified, ...]
     turning_points: tuple[Certified, ...]
@@ -46,12 +63,13 @@ class Events:
 
 @dataclass(frozen=True, repr=False)
 class Pendulum(SeparableProblem):
-    """The pendulum released from rest at ``theta0``: theta'' = -(g/length) sin theta.
+    """The pendulum theta'' = -(g/length) sin theta, released from rest or set going.
 
     Args:
-        theta0: amplitude in rad, 0 < theta0 < pi.
+        theta0: angle of the start in rad; without ``omega0`` the amplitude, 0 < theta0 < pi.
         g: acceleration of gravity in m/s^2, positive.
         length: length in m, positive.
+        omega0: angular velocity of the start in rad/s; if None the pendulum is released from rest.
 
     Each is exact: a float at its binary64 value, a string or Fraction as the rational it spells.
 
@@ -63,25 +81,26 @@ class Pendulum(SeparableProblem):
     theta0: Fraction
     g: Fraction
     length: Fraction
+    omega0: Fraction
 
     name: ClassVar[str] = "pendulum"
     rows: ClassVar[tuple[Row, ...]] = ROWS
     state_names: ClassVar[tuple[str, ...]] = ("theta", "omega")
     positions: ClassVar[int] = 1
 
-    def __init__(self, theta0: Any, g: Any = 9.81, length: Any = 1.0) -> None:
-        for name, value in (("theta0", theta0), ("g", g), ("length", length)):
-            object.__setattr__(self, name, exact(value, name))
-        if not 0 < self.theta0 < 4 or not _below_pi(self.theta0):
+    def __init__(self, theta0: Any, g: Any = 9.81, length: Any = 1.0, omega0: Any = None) -> None:
+        for name, value in (("theta0", theta0), ("g", g), ("length", length), ("omega0", omega0)):
+            object.__setattr__(self, name, Fraction(0) if value is None else exact(value, name))
+        if omega0 is None and not (self.theta0 > 0 and self.turns == 0):
             raise ValueError(f"theta0 is {as_number(self.theta0)}; an amplitude with 0 < theta0 < pi is accepted.")
         for name in ("g", "length"):
             if getattr(self, name) <= 0:
                 raise ValueError(f"{name} is {as_number(getattr(self, name))}; a positive number is accepted.")
 
     def __repr__(self) -> str:
-        return (
-            f"Pendulum(theta0={as_number(self.theta0)!r}, g={as_number(self.g)!r}, length={as_number(self.length)!r})"
-        )
+        going = f", omega0={as_number(self.omega0)!r}" if self.omega0 else ""
+        fixed = f"g={as_number(self.g)!r}, length={as_number(self.length)!r}"
+        return f"Pendulum(theta0={as_number(self.theta0)!r}, {fixed}{going})"
 
     @property
     def parameters(self) -> dict[str, Fraction]:
@@ -89,7 +108,54 @@ class Pendulum(SeparableProblem):
 
     @property
     def start(self) -> tuple[Fraction, ...]:
-        return self.theta0, Fraction(0)
+        return self.theta0, self.omega0
+
+    @cached_property
+    def turns(self) -> int:
+        """Whole turns in theta0: the integer nearest to theta0/(2 pi)."""
+        if abs(self.theta0) < 3:
+            return 0
+        half = Fraction(1, 2)
+        whole = self._decide(lambda: BALL.floor(BALL.number(self.theta0) / (2 * BALL.pi()) + BALL.number(half)))
+        return int(whole.unique_fmpz())
+
+    @cached_property
+    def motion(self) -> str:
+        """One of "libration", "rotation", "separatrix" and "rest", decided exactly by the sign of k^2 - 1.
+
+        k^2 - 1 = (omega0/2)^2 l/g - cos^2(theta0/2).  The cosine of a rational other than 0 is transcendental, so that
+        the separatrix is met at theta0 = 0, omega0^2 = 4 g/l alone, and rest at theta0 = omega0 = 0.
+        """
+        quarter = self.omega0**2 * self.length / (4 * self.g)
+        if self.theta0 == 0:
+            return (
+                "rest" if not quarter else "separatrix" if quarter == 1 else "rotation" if quarter > 1 else "libration"
+            )
+        excess = self._decide(lambda: BALL.number(quarter) - BALL.cos(BALL.number(self.theta0) / 2) ** 2)
+        return "rotation" if excess > 0 else "libration"
+
+    def _decide(self, enclose: Callable[[], arb]) -> arb:
+        """A finite ball that is a point or does not contain zero."""
+
+        def certain(ball: arb) -> arb | None:
+            return ball if (ball.is_exact() and ball.is_finite()) or not ball.contains(0) else None
+
+        return ziv(lambda _: [[enclose()]], certain, 1, DECISION_BITS, f"the motion of {self!r}")[0][0]
+
+    def row(self, name: str) -> Row:
+        """The row of this name.
+
+        Raises:
+            KeyError: there is none, or this motion has no such thing.
+        """
+        if name not in SERVED[self.kind] and any(row.name == name for row in self.rows):
+            raise KeyError(f"{name} is not of {self!r}, which is {self.kind}; it has {', '.join(SERVED[self.kind])}.")
+        return super().row(name)
+
+    @property
+    def kind(self) -> str:
+        """The motion, where "release" is the libration that starts from rest."""
+        return "release" if self.motion == "libration" and self.omega0 == 0 else self.motion
 
     @staticmethod
     def velocity(m: Arithmetic, momenta: Sequence[Any], p: dict[str, Any]) -> tuple[Any, ...]:  # noqa: ARG004
@@ -107,19 +173,28 @@ class Pendulum(SeparableProblem):
         return energy_above_rest(m, y[0], y[1], p["g"], p["length"])
 
     def rate(self) -> float:
-        """omega0: |d(omega')/d(theta)| <= omega0^2."""
+        """sqrt(g/l): |d(omega')/d(theta)| <= g/l."""
         return float(mp.sqrt(MPMATH.number(self.g / self.length)))
 
     def neighbour(self, rounding: Callable[[Fraction], Fraction], epsilon: Fraction) -> Pendulum:
-        """The pendulum from theta0 less 2^-20 of its distance to the nearer of 0 and pi, or less 16 roundings."""
-        edge = min(self.theta0, Fraction(math.pi) - self.theta0)
-        return Pendulum(rounding(self.theta0 - max(edge / (1 << 20), 16 * epsilon * self.theta0)), self.g, self.length)
+        """The pendulum whose start is nearer to rest by 2^-20 of its way to 0 or pi, or by 16 roundings."""
+        size = abs(self.theta0)
+        shift = max(min(size, abs(PI - size)) / (1 << 20), 16 * epsilon * size)
+        slower = 1 - max(Fraction(1, 1 << 20), 16 * epsilon)
+        moved = self.theta0 - shift if self.theta0 > 0 else self.theta0 + shift
+        return Pendulum(rounding(moved), self.g, self.length, rounding(self.omega0 * slower))
 
-    def closed_form(self, m: EllipticArithmetic) -> Libration:
-        """The closed form in balls or in mpmath."""
-        return Libration(m, m.number(self.theta0), m.number(self.g), m.number(self.length))
+    def closed_form(self, m: EllipticArithmetic) -> Motion:
+        """The closed form of this motion in balls or in mpmath."""
+        return self._closed_form(CLOSED_FORMS, m)
+
+    def _closed_form(self, forms: dict[str, type[Motion]], m: EllipticArithmetic) -> Motion:
+        theta0, omega0, g, length = (m.number(value) for value in (self.theta0, self.omega0, self.g, self.length))
+        return forms[self.motion](m, theta0, omega0, g, length, self.turns)
 
     def exact_row(self, row: str, argument: Any) -> tuple[Fraction, ...] | None:
+        if row == "state" and self.motion == "rest":
+            return self.start
         if argument != 0 or isinstance(argument, int):
             return None
         at_start = {"state": self.start, "sensitivity": (Fraction(1), Fraction(0))}
@@ -127,49 +202,58 @@ class Pendulum(SeparableProblem):
 
     def working_bits(self, arguments: Sequence[Any]) -> int:
         times = [abs(t) for t in arguments if isinstance(t, Fraction)]
-        turns = max(times, default=Fraction(0)) * (1 + self.g / self.length)
+        turns = max(times, default=Fraction(0)) * (1 + self.g / self.length + abs(self.omega0))
         return int(turns).bit_length() + 2 * self._edge_bits
 
-    @property
+    @cached_property
     def _edge_bits(self) -> int:
-        """About -log2 of the distance from theta0 to the nearer of 0 and pi, where digits cancel."""
+        """About -log2 of the smaller of k and kc, the distances to rest and to the separatrix, where digits cancel."""
+        if self.motion in {"rest", "separatrix"}:
+            return 0
+        quarter = self.omega0**2 * self.length / (4 * self.g)
         with ctx.workprec(4096):
-            edge = min(BALL.number(self.theta0), arb.pi() - BALL.number(self.theta0)).mid().man_exp()
-        return max(0, -(int(edge[0]).bit_length() + int(edge[1])))
+            cosine = BALL.cos(BALL.number(self.theta0) / 2) ** 2
+            squares = (
+                abs(BALL.number(quarter) - cosine),
+                BALL.number(quarter) + BALL.sin(BALL.number(self.theta0) / 2) ** 2,
+            )
+            exponents = [int(man).bit_length() + int(exp) for man, exp in (ball.mid().man_exp() for ball in squares)]
+        return max(0, -min(exponents) // 2)
 
     def by_route(
         self, route: str, row: str, arguments: Sequence[Any], digits: int
     ) -> list[tuple[Fraction, ...]] | None:
         bits = int(digits * 3.33) + 2 * self.working_bits(arguments) + 30
-        if bits > ROUTE_BITS:
+        if bits > ROUTE_BITS or self.motion == "rest":
             return None
         if route == "quadrature":
-            return quadrature.rows(lambda: QuadratureLibration(MPMATH, *self._numbers()), row, arguments, bits)
+            return quadrature.rows(lambda: self._closed_form(BY_QUADRATURE, MPMATH), row, arguments, bits)
         if row in NOT_BY_TAYLOR or bits > TAYLOR_BITS or not self._within_taylor(row, arguments):
             return None
         with mp.workprec(bits):
-            return TaylorLibration(self, bits).rows(row, arguments)
+            return TaylorMotion(self, bits).rows(row, arguments)
 
     def _within_taylor(self, row: str, arguments: Sequence[Any]) -> bool:
-        """Whether every argument lies in 0 <= omega0 t <= TAYLOR_RADIANS, the last event included."""
+        """Whether every argument lies in 0 <= sqrt(g/l) t <= TAYLOR_RADIANS, the last event included."""
         if self.row(row).over == "index":
             arguments = [Fraction(float(self.period())) * (index + 1) for index in arguments]
         times = [t for t in arguments if isinstance(t, Fraction)]
         return all(t >= 0 and t * t * self.g / self.length <= TAYLOR_RADIANS**2 for t in times)
 
-    def _numbers(self) -> tuple[Any, ...]:
-        return MPMATH.number(self.theta0), MPMATH.number(self.g), MPMATH.number(self.length)
-
     def period(self) -> Certified:
-        """T = 4 K(sin(theta0/2)) sqrt(l/g), in s."""
+        """T in s: 4 K(k) sqrt(l/g) in libration, the time of one turn in rotation.
+
+        Raises:
+            KeyError: the separatrix and rest have none.
+        """
         return self.certified("period")
 
     def energy(self) -> Certified:
-        """E = -(g/l) cos theta0, the energy per m l^2 in 1/s^2."""
+        """E = omega0^2/2 - (g/l) cos theta0, the energy per m l^2 in 1/s^2."""
         return self.certified("energy")
 
     def events(self, until: Any) -> Events:
-        """The zero crossings (2j + 1) T/4 and turning points j T/2, j = 1, 2, ..., in (0, until].
+        """The passages through the bottom and the turning points in (0, until].
 
         Raises:
             ValueError: ``until`` is negative or not finite, or the events before it are more than MAX_EVENTS.
@@ -177,37 +261,33 @@ class Pendulum(SeparableProblem):
         end = exact(until, "until")
         if end < 0:
             raise ValueError(f"until is {as_number(end)}; a time that is not negative is accepted.")
-        count = self._quarters(end)
+        return Events(self._events("zero_crossing", end), self._events("turning_point", end))
+
+    def _events(self, row: str, end: Fraction) -> tuple[Certified, ...]:
+        """The events of one kind up to a time: they are a period or half of one apart."""
+        if end == 0 or row not in SERVED[self.kind]:
+            return ()
+        apart = 1 if self.motion == "rotation" else 2
+
+        def whole() -> arb:
+            form: Any = self.closed_form(BALL)
+            first = getattr(form, row)(0)
+            return BALL.floor((BALL.number(end) - first) * apart / form.period)
+
+        count = max(0, 1 + int(self._decide_whole(whole, end)))
         if count > MAX_EVENTS:
             raise ValueError(
                 f"until is {as_number(end)}, with {count} events before it; at most {MAX_EVENTS} are accepted."
             )
-        return Events(
-            tuple(self.certified("zero_crossing", j) for j in range((count + 1) // 2)),
-            tuple(self.certified("turning_point", j) for j in range(count // 2)),
+        return tuple(self.certified(row, j) for j in range(count))
+
+    def _decide_whole(self, enclose: Callable[[], arb], end: Fraction) -> int:
+        bits = DECISION_BITS + self.working_bits([end])
+        found = ziv(
+            lambda _: [[enclose()]],
+            lambda ball: ball if ball.is_finite() else None,
+            1,
+            bits,
+            f"the number of events of {self!r}",
         )
-
-    def _quarters(self, end: Fraction) -> int:
-        """floor(4 end/T), decided in balls."""
-        if end == 0:
-            return 0
-
-        def floors(_rows: Sequence[int]) -> Sequence[Sequence[arb]]:
-            return [[4 * BALL.number(end) / self.closed_form(BALL).period]]
-
-        def whole(quarters: arb) -> int | None:
-            floor = quarters.floor().unique_fmpz()
-            return None if floor is None else int(floor)
-
-        return ziv(floors, whole, 1, 128 + self.working_bits([end]), f"the number of events of {self!r}")[0][0]
-
-
-def _below_pi(value: Fraction) -> bool:
-    """Decide value < pi; a rational is never equal to it."""
-    bits = 128
-    while True:
-        with ctx.workprec(bits):
-            gap = arb.pi() - BALL.number(value)
-            if not gap.contains(0):
-                return bool(gap > 0)
-        bits *= 2
+        return int(found[0][0].unique_fmpz())

@@ -2,7 +2,7 @@
 
 from reference.problem import Quantity, Row
 
-__all__ = ["ROWS"]
+__all__ = ["ROWS", "SERVED"]
 
 THETA = Quantity("theta", "rad", "angle from the lower rest position", "theta = 2 atan(tan(theta0/2) cn(u, k))")
 OMEGA = Quantity("omega", "rad s-1", "angular velocity", "omega = dtheta/dt = -2 k kc omega0 sn(u, k)/dn(u, k)")
@@ -52,3 +52,13 @@ ROWS = (
         "index",
     ),
 )
+
+_ALWAYS = ("state", "energy")
+SERVED = {
+    "rest": ("state",),
+    "separatrix": _ALWAYS,
+    "rotation": (*_ALWAYS, "period", "modulus", "zero_crossing"),
+    "libration": tuple(row.name for row in ROWS if row.name not in {"sensitivity", "dperiod_damplitude"}),
+    "release": tuple(row.name for row in ROWS),
+}
+"""The rows that each motion has; "release" is the libration that starts from rest."""

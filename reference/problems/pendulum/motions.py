@@ -1,0 +1,188 @@
+"""The pendulum's closed forms, one for each motion: libration, rotation, separatrix.
+
+With s = sin(theta0/2), c = cos(theta0/2), w = sqrt(g/l), p = omega0/(2 w), u = w t and k^2 = s^2 + p^2, every motion is
+
+    sin(theta/2) = (p c S + s C D)/(1 - s^2 S^2),     cos(theta/2) = (c D - s p S C)/(1 - s^2 S^2),
+    theta' = 2 w (p C - s c S D)/(1 - s^2 S^2),       S, C, D = sn, cn, dn(u | k^2):
+
+Jacobi's addition theorem (DLMF 22.8.1-3) spares the phase of the start.  Libration has k < 1; rotation has k > 1, with
+S, C, D by the reciprocal modulus (DLMF 22.17.2-4); on the separatrix k = 1.
+"""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from typing import TYPE_CHECKING, Any
+
+from mpmath import mp
+
+from reference.problem import ClosedForm
+from reference.problems.pendulum.equations import energy
+from reference.routes import quadrature
+
+if TYPE_CHECKING:
+    from reference.arithmetic import EllipticArithmetic
+
+__all__ = ["Libration", "Motion", "QuadratureLibration", "QuadratureRotation", "Rotation", "Separatrix"]
+
+HALF = Fraction(1, 2)
+
+
+class Motion(ClosedForm):
+    """What all motions share: the constants of the orbit once, then any time.
+
+    ``turns`` is the whole number of turns in theta0: s and c are of the rest, which lies within pi.
+    """
+
+    def __init__(self, m: EllipticArithmetic, theta0: Any, omega0: Any, g: Any, length: Any, turns: int) -> None:
+        self.m: EllipticArithmetic = m
+        self.theta0, self.omega0, self.g, self.length, self.turns = theta0, omega0, g, length, turns
+        self.half = theta0 / 2 - turns * m.pi() if turns else theta0 / 2
+        self.s, self.c = m.sin(self.half), m.cos(self.half)
+        self.w = m.sqrt(g / length)
+        self.p = omega0 / (2 * self.w)
+
+    @property
+    def energy(self) -> Any:
+        """The energy at the start, which the motion keeps."""
+        return energy(self.m, self.theta0, self.omega0, self.g, self.length)
+
+    def functions(self, u: Any) -> tuple[Any, Any, Any]:
+        """(sn, cn, dn)(u) of the motion's own modulus."""
+        raise NotImplementedError
+
+    def turns_at(self, t: Any) -> Any:
+        """Whole turns from the start's turn to the turn at t: |theta/2 - (turns + these) pi| < pi/2."""
+        del t
+        return 0
+
+    def state(self, t: Any) -> tuple[Any, Any]:
+        """(theta, theta') at t."""
+        s, c, p = self.s, self.c, self.p
+        sn, cn, dn = self.functions(self.w * t)
+        half = self.m.atan((p * c * sn + s * cn * dn) / (c * dn - s * p * sn * cn))
+        rate = 2 * self.w * (p * cn - s * c * sn * dn) / (1 - (s * sn) ** 2)
+        return 2 * half + 2 * self.m.pi() * (self.turns + self.turns_at(t)), rate
+
+
+class Libration(Motion):
+    """k = sqrt(s^2 + p^2) < 1: the amplitude is 2 asin k, the period T = 4 K/w."""
+
+    def __init__(self, m: EllipticArithmetic, theta0: Any, omega0: Any, g: Any, length: Any, turns: int) -> None:
+        super().__init__(m, theta0, omega0, g, length, turns)
+        self.modulus = m.sqrt(self.s**2 + self.p**2)
+        self.complementary_modulus = m.sqrt((self.c - self.p) * (self.c + self.p))
+        self.elliptic = m.elliptic(self.modulus, self.complementary_modulus)
+        self.functions = self.elliptic.functions  # type: ignore[method-assign]
+
+    @property
+    def period(self) -> Any:
+        return 4 * self.elliptic.first / self.w
+
+    @property
+    def dperiod_damplitude(self) -> Any:
+        """dT/d(amplitude) = 2 (E - kc^2 K)/(w k kc), from dK/dk (DLMF 19.4.1)."""
+        k, kc = self.modulus, self.complementary_modulus
+        return 2 * (self.elliptic.second() - kc * kc * self.elliptic.first) / (self.w * k * kc)
+
+    @property
+    def phase(self) -> Any:
+        """u since the last upward passage through the bottom: sn = s/k, cn = p/k there; within 2K."""
+        if self.omega0 == 0:
+            return self.elliptic.first * (1 if self.s > 0 else -1)
+        return self.elliptic.incomplete(self.m.atan2(self.s, self.p))
+
+    def zero_crossing(self, j: int) -> Any:
+        """The time at which theta passes its mean value for the (j + 1)-th time after the start, j = 0, 1, ..."""
+        if self.theta0 == 0:
+            return 2 * self.elliptic.first * (j + 1) / self.w
+        return (2 * self.elliptic.first * (j + (1 if self.s > 0 else 0)) - self.phase) / self.w
+
+    def turning_point(self, j: int) -> Any:
+        """The time at which theta' = 0 for the (j + 1)-th time after the start, j = 0, 1, ..."""
+        upward, beyond = self.omega0 > 0, self.s > 0 or self.theta0 == 0
+        first = 0 if upward or (self.omega0 == 0 and not beyond) else 1 if beyond else -1
+        return ((2 * (j + first) + 1) * self.elliptic.first - self.phase) / self.w
+
+    def sensitivity(self, t: Any) -> tuple[Any, Any]:
+        """(dtheta/dtheta0, dtheta'/dtheta0) at fixed t of the pendulum released from rest.
+
+        With B = E(am u) - kc^2 u - k^2 sn cn/dn, from dcn/dk (Byrd and Friedman 710.52):
+        dtheta/dtheta0 = cn/dn^2 + B sn/dn, and its derivative by t.
+        """
+        u = self.w * t
+        sn, cn, dn = self.elliptic.functions(u)
+        kk, kkc = self.modulus**2, self.complementary_modulus**2
+        b = self.elliptic.epsilon(u) - kkc * u - kk * sn * cn / dn
+        db = dn * dn - kkc - kk * (cn * cn - sn * sn + kk * (sn * cn / dn) ** 2)
+        rate = -sn / dn + 2 * kk * sn * cn * cn / dn**3 + b * cn / dn**2 + db * sn / dn
+        return cn / dn**2 + b * sn / dn, self.w * rate
+
+
+class Rotation(Motion):
+    """k = sqrt(s^2 + p^2) > 1: one turn takes T = 2 K(1/k)/(w k)."""
+
+    def __init__(self, m: EllipticArithmetic, theta0: Any, omega0: Any, g: Any, length: Any, turns: int) -> None:
+        super().__init__(m, theta0, omega0, g, length, turns)
+        self.modulus = m.sqrt(self.s**2 + self.p**2)
+        self.direction = 1 if omega0 > 0 else -1
+        excess = m.sqrt((self.p - self.c) * (self.p + self.c))
+        self.elliptic = m.elliptic(1 / self.modulus, excess / self.modulus)
+
+    @property
+    def period(self) -> Any:
+        return 2 * self.elliptic.first / (self.w * self.modulus)
+
+    @property
+    def passed(self) -> Any:
+        """The time since the pendulum hung at the bottom of the start's turn, negative where it is still to come."""
+        return self.direction * self.elliptic.incomplete(self.half) / (self.w * self.modulus)
+
+    def functions(self, u: Any) -> tuple[Any, Any, Any]:
+        sn, cn, dn = self.elliptic.functions(self.modulus * u)
+        return sn / self.modulus, dn, cn
+
+    def turns_at(self, t: Any) -> Any:
+        return self.direction * self.m.floor((t + self.passed) / self.period + self.m.number(HALF))
+
+    def zero_crossing(self, j: int) -> Any:
+        """The time at which the pendulum hangs at the bottom for the (j + 1)-th time after the start, j = 0, 1, ..."""
+        ahead = self.direction * self.half < 0
+        return self.period * (j + (0 if ahead else 1)) - self.passed
+
+
+class Separatrix(Motion):
+    """k = 1: sn u = tanh u, cn u = dn u = sech u; from the bottom towards the top, which it never reaches."""
+
+    def functions(self, u: Any) -> tuple[Any, Any, Any]:
+        cosh = self.m.cosh(u)
+        return self.m.sinh(u) / cosh, 1 / cosh, 1 / cosh
+
+
+class QuadratureLibration(Libration):
+    """The closed form by mpmath's elliptic functions, and the period from its integral.
+
+    T = (8/w) times the integral of (1 + kc^2 sinh^2 x)^(-1/2) over 0 <= x <= asinh(kc^(-1/2)): K's integrand after
+    tan phi = sinh x, halved by the symmetry u -> K - u; analytic on the closed interval for every amplitude.
+    """
+
+    @property
+    def period(self) -> Any:
+        return 4 * complete_integral(self.complementary_modulus) / self.w
+
+
+class QuadratureRotation(Rotation):
+    """The same for rotation: T = 2 K(1/k)/(w k), K from its integral."""
+
+    @property
+    def period(self) -> Any:
+        return (
+            2
+            * complete_integral(self.m.sqrt((self.p - self.c) * (self.p + self.c)) / self.modulus)
+            / (self.w * self.modulus)
+        )
+
+
+def complete_integral(kc: Any) -> Any:
+    """K as twice the integral of (1 + kc^2 sinh^2 x)^(-1/2) over 0 <= x <= asinh(kc^(-1/2))."""
+    return 2 * quadrature.integral(lambda x: 1 / mp.sqrt(1 + (kc * mp.sinh(x)) ** 2), 0, mp.asinh(1 / mp.sqrt(kc)))

@@ -1,0 +1,71 @@
+"""The pendulum by heyoka's Taylor method, on the equation of motion alone."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from typing import TYPE_CHECKING, Any
+
+from reference.arithmetic import MPMATH
+from reference.problems.pendulum.equations import energy
+from reference.routes import quadrature
+from reference.routes.taylor import Flow
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
+
+    from reference.arithmetic import Arithmetic
+    from reference.problems.pendulum.problem import Pendulum
+
+__all__ = ["TaylorMotion"]
+
+
+class TaylorMotion:
+    """The rows that the flow of the equation of motion gives by itself."""
+
+    def __init__(self, problem: Pendulum, bits: int) -> None:
+        self._problem, self._flow = problem, Flow(problem, bits)
+
+    def rows(self, row: str, arguments: Sequence[Any]) -> list[tuple[Fraction, ...]]:
+        by_row: dict[str, Callable[[Sequence[Any]], list[tuple[Fraction, ...]]]] = {
+            "state": self._flow.at,
+            "sensitivity": lambda times: [state[2:] for state in self._flow.at(times, ("theta",))],
+            "zero_crossing": lambda indices: self._at_zeros(through_the_bottom, indices),
+            "turning_point": lambda indices: self._at_zeros(at_rest, indices),
+            "period": lambda _: [(self._period(),)],
+            "dperiod_damplitude": lambda _: [(self._period_by_amplitude(),)],
+            "energy": lambda _: [(self._energy(),)],
+        }
+        return by_row[row](arguments)
+
+    def _at_zeros(self, event: Any, indices: Sequence[int]) -> list[tuple[Fraction, ...]]:
+        until = float(self._problem.period()) * (max(indices) + 1.01)
+        times = self._flow.zeros(event, until)
+        return [(times[index],) for index in indices]
+
+    def _period(self) -> Fraction:
+        """From one passage through the bottom to the next, which in libration is half a period."""
+        (first,), (second,) = self._at_zeros(through_the_bottom, (0, 1))
+        return (second - first) * (1 if self._problem.motion == "rotation" else 2)
+
+    def _period_by_amplitude(self) -> Fraction:
+        """theta(T/4) = 0 for every amplitude: dT/dtheta0 = -4 (dtheta/dtheta0)/theta' at T/4."""
+        ((quarter,),) = self._at_zeros(through_the_bottom, (0,))
+        ((_, omega, dtheta, _),) = self._flow.at([quarter], ("theta",))
+        return -4 * dtheta / omega * (1 if self._problem.theta0 > 0 else -1)
+
+    def _energy(self) -> Fraction:
+        """Of the state somewhere on the way."""
+        ((theta, omega),) = self._flow.at([Fraction(1 / self._problem.rate())])
+        numbers = [MPMATH.number(value) for value in (theta, omega, self._problem.g, self._problem.length)]
+        return quadrature.to_fraction(energy(MPMATH, *numbers))
+
+
+def through_the_bottom(m: Arithmetic, y: Sequence[Any]) -> Any:
+    """Zero where the pendulum hangs at the bottom, after any whole turns."""
+    return m.sin(y[0] / 2)
+
+
+def at_rest(m: Arithmetic, y: Sequence[Any]) -> Any:
+    """Zero where the pendulum turns back."""
+    del m
+    return y[1]
