@@ -46,7 +46,8 @@ class Flow:
         rates = problem.derivative(Heyoka(self._real), self._variables, symbols)
         system: Any = list(zip(self._variables, rates, strict=True))
         if variational:
-            chosen = [self._variables[problem.state_names.index(name)] for name in variational]
+            named = {**dict(zip(problem.state_names, self._variables, strict=True)), **symbols}
+            chosen = [named[name] for name in variational]
             system = hy.var_ode_sys(system, chosen, 1)
         with self._not_kept():
             return hy.taylor_adaptive(
@@ -61,7 +62,7 @@ class Flow:
             )
 
     def at(self, times: Sequence[Fraction], variational: Sequence[str] = ()) -> list[tuple[Fraction, ...]]:
-        """The state at each time (none negative), and after it its derivatives by the named initial values."""
+        """The state at each time (none negative), and after it its derivatives by the named starts and parameters."""
         moments = sorted({Fraction(0), *times})
         integrator = self._integrator(variational)
         grid = np.array([self._real(moment) for moment in moments])

@@ -12,10 +12,12 @@ S, C, D by the reciprocal modulus (DLMF 22.17.2-4); on the separatrix k = 1.
 from __future__ import annotations
 
 from fractions import Fraction
+from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 from mpmath import mp
 
+from reference.dual import DualArithmetic
 from reference.problem import ClosedForm
 from reference.problems.pendulum.equations import energy
 from reference.routes import quadrature
@@ -23,7 +25,7 @@ from reference.routes import quadrature
 if TYPE_CHECKING:
     from reference.arithmetic import EllipticArithmetic
 
-__all__ = ["Libration", "Motion", "QuadratureLibration", "QuadratureRotation", "Rotation", "Separatrix"]
+__all__ = ["Libration", "Motion", "QuadratureLibration", "QuadratureRotation", "Rest", "Rotation", "Separatrix"]
 
 HALF = Fraction(1, 2)
 
@@ -63,6 +65,25 @@ class Motion(ClosedForm):
         half = self.m.atan((p * c * sn + s * cn * dn) / (c * dn - s * p * sn * cn))
         rate = 2 * self.w * (p * cn - s * c * sn * dn) / (1 - (s * sn) ** 2)
         return 2 * half + 2 * self.m.pi() * (self.turns + self.turns_at(t)), rate
+
+    @cached_property
+    def _dual(self) -> tuple[DualArithmetic, Motion]:
+        """The same motion in dual numbers, with a slope for each of theta0, omega0, g and l."""
+        m = DualArithmetic(self.m, 4)
+        values = self.theta0, self.omega0, self.g, self.length
+        theta0, omega0, g, length = (m.variable(value, place) for place, value in enumerate(values))
+        return m, type(self)(m, theta0, omega0, g, length, self.turns)
+
+    def gradient(self, t: Any) -> tuple[Any, ...]:
+        """d(theta, theta')/d(theta0, omega0, g, l) at fixed t: the four of theta, then those of theta'."""
+        m, motion = self._dual
+        theta, omega = motion.state(m.constant(t))
+        return *theta.slopes, *omega.slopes
+
+    def sensitivity(self, t: Any) -> tuple[Any, Any]:
+        """d(theta, theta')/dtheta0 at fixed t."""
+        slopes = self.gradient(t)
+        return slopes[0], slopes[4]
 
 
 class Libration(Motion):
@@ -104,20 +125,6 @@ class Libration(Motion):
         first = 0 if upward or (self.omega0 == 0 and not beyond) else 1 if beyond else -1
         return ((2 * (j + first) + 1) * self.elliptic.first - self.phase) / self.w
 
-    def sensitivity(self, t: Any) -> tuple[Any, Any]:
-        """(dtheta/dtheta0, dtheta'/dtheta0) at fixed t of the pendulum released from rest.
-
-        With B = E(am u) - kc^2 u - k^2 sn cn/dn, from dcn/dk (Byrd and Friedman 710.52):
-        dtheta/dtheta0 = cn/dn^2 + B sn/dn, and its derivative by t.
-        """
-        u = self.w * t
-        sn, cn, dn = self.elliptic.functions(u)
-        kk, kkc = self.modulus**2, self.complementary_modulus**2
-        b = self.elliptic.epsilon(u) - kkc * u - kk * sn * cn / dn
-        db = dn * dn - kkc - kk * (cn * cn - sn * sn + kk * (sn * cn / dn) ** 2)
-        rate = -sn / dn + 2 * kk * sn * cn * cn / dn**3 + b * cn / dn**2 + db * sn / dn
-        return cn / dn**2 + b * sn / dn, self.w * rate
-
 
 class Rotation(Motion):
     """k = sqrt(s^2 + p^2) > 1: one turn takes T = 2 K(1/k)/(w k)."""
@@ -130,8 +137,13 @@ class Rotation(Motion):
         self.elliptic = m.elliptic(1 / self.modulus, excess / self.modulus)
 
     @property
-    def period(self) -> Any:
+    def turn(self) -> Any:
+        """The time of one turn."""
         return 2 * self.elliptic.first / (self.w * self.modulus)
+
+    @property
+    def period(self) -> Any:
+        return self.turn
 
     @property
     def passed(self) -> Any:
@@ -143,7 +155,7 @@ class Rotation(Motion):
         return sn / self.modulus, dn, cn
 
     def turns_at(self, t: Any) -> Any:
-        return self.direction * self.m.floor((t + self.passed) / self.period + self.m.number(HALF))
+        return self.direction * self.m.floor((t + self.passed) / self.turn + self.m.number(HALF))
 
     def zero_crossing(self, j: int) -> Any:
         """The time at which the pendulum hangs at the bottom for the (j + 1)-th time after the start, j = 0, 1, ..."""
@@ -155,8 +167,24 @@ class Separatrix(Motion):
     """k = 1: sn u = tanh u, cn u = dn u = sech u; from the bottom towards the top, which it never reaches."""
 
     def functions(self, u: Any) -> tuple[Any, Any, Any]:
-        cosh = self.m.cosh(u)
-        return self.m.sinh(u) / cosh, 1 / cosh, 1 / cosh
+        """To first order in 1 - k^2, which is zero here and whose slopes are not (Abramowitz and Stegun 16.15)."""
+        excess = (self.c - self.p) * (self.c + self.p) / 4
+        sinh, cosh = self.m.sinh(u), self.m.cosh(u)
+        sn, cn = sinh / cosh, 1 / cosh
+        return (
+            sn + excess * (sinh * cosh - u) * cn * cn,
+            cn - excess * (sinh * cosh - u) * sn * cn,
+            cn + excess * (sinh * cosh + u) * sn * cn,
+        )
+
+
+class Rest(Motion):
+    """The linearised pendulum, theta'' = -(g/l) theta: exact at rest, and to first order about it."""
+
+    def state(self, t: Any) -> tuple[Any, Any]:
+        """(theta, theta') at t."""
+        sine, cosine = self.m.sin(self.w * t), self.m.cos(self.w * t)
+        return self.theta0 * cosine + self.omega0 / self.w * sine, self.omega0 * cosine - self.theta0 * self.w * sine
 
 
 class QuadratureLibration(Libration):

@@ -21,6 +21,7 @@ from reference.problems.pendulum.motions import (
     Motion,
     QuadratureLibration,
     QuadratureRotation,
+    Rest,
     Rotation,
     Separatrix,
 )
@@ -35,7 +36,12 @@ if TYPE_CHECKING:
 
 __all__ = ["MAX_EVENTS", "Events", "Pendulum"]
 
-CLOSED_FORMS: dict[str, type[Motion]] = {"libration": Libration, "rotation": Rotation, "separatrix": Separatrix}
+CLOSED_FORMS: dict[str, type[Motion]] = {
+    "libration": Libration,
+    "rotation": Rotation,
+    "separatrix": Separatrix,
+    "rest": Rest,
+}
 BY_QUADRATURE: dict[str, type[Motion]] = {
     **CLOSED_FORMS,
     "libration": QuadratureLibration,
@@ -197,7 +203,9 @@ class Pendulum(SeparableProblem):
             return self.start
         if argument != 0 or isinstance(argument, int):
             return None
-        at_start = {"state": self.start, "sensitivity": (Fraction(1), Fraction(0))}
+        one, zero = Fraction(1), Fraction(0)
+        gradient = one, zero, zero, zero, zero, one, zero, zero
+        at_start = {"state": self.start, "sensitivity": (one, zero), "gradient": gradient}
         return at_start.get(row)
 
     def working_bits(self, arguments: Sequence[Any]) -> int:
@@ -224,7 +232,7 @@ class Pendulum(SeparableProblem):
         self, route: str, row: str, arguments: Sequence[Any], digits: int
     ) -> list[tuple[Fraction, ...]] | None:
         bits = int(digits * 3.33) + 2 * self.working_bits(arguments) + 30
-        if bits > ROUTE_BITS or self.motion == "rest":
+        if bits > ROUTE_BITS:
             return None
         if route == "quadrature":
             return quadrature.rows(lambda: self._closed_form(BY_QUADRATURE, MPMATH), row, arguments, bits)

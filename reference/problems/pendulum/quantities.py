@@ -6,6 +6,23 @@ __all__ = ["ROWS", "SERVED"]
 
 THETA = Quantity("theta", "rad", "angle from the lower rest position", "theta = 2 atan(tan(theta0/2) cn(u, k))")
 OMEGA = Quantity("omega", "rad s-1", "angular velocity", "omega = dtheta/dt = -2 k kc omega0 sn(u, k)/dn(u, k)")
+GRADIENT = tuple(
+    Quantity(f"d{name}_d{start}", units, f"sensitivity of the {what} to {which}", f"d({name})/d({start}) at fixed t")
+    for name, what, all_units in (
+        ("theta", "angle", ("1", "s", "rad s2 m-1", "rad m-1")),
+        ("omega", "angular velocity", ("s-1", "1", "rad s m-1", "rad s-1 m-1")),
+    )
+    for (start, which), units in zip(
+        (
+            ("theta0", "the start's angle"),
+            ("omega0", "the start's angular velocity"),
+            ("g", "the acceleration of gravity"),
+            ("length", "the length"),
+        ),
+        all_units,
+        strict=True,
+    )
+)
 ROWS = (
     Row("state", (THETA, OMEGA), "time"),
     Row(
@@ -20,6 +37,7 @@ ROWS = (
         ),
         "time",
     ),
+    Row("gradient", GRADIENT, "time"),
     Row("period", (Quantity("period", "s", "period", "T = 4 K(k)/omega0, omega0 = sqrt(g/l)"),), "once"),
     Row(
         "energy",
@@ -53,9 +71,9 @@ ROWS = (
     ),
 )
 
-_ALWAYS = ("state", "energy")
+_ALWAYS = ("state", "energy", "gradient")
 SERVED = {
-    "rest": ("state",),
+    "rest": ("state", "gradient"),
     "separatrix": _ALWAYS,
     "rotation": (*_ALWAYS, "period", "modulus", "zero_crossing"),
     "libration": tuple(row.name for row in ROWS if row.name not in {"sensitivity", "dperiod_damplitude"}),

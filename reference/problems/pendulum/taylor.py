@@ -29,6 +29,7 @@ class TaylorMotion:
         by_row: dict[str, Callable[[Sequence[Any]], list[tuple[Fraction, ...]]]] = {
             "state": self._flow.at,
             "sensitivity": lambda times: [state[2:] for state in self._flow.at(times, ("theta",))],
+            "gradient": lambda times: [_by_component(state[2:]) for state in self._flow.at(times, EVERYTHING)],
             "zero_crossing": lambda indices: self._at_zeros(through_the_bottom, indices),
             "turning_point": lambda indices: self._at_zeros(at_rest, indices),
             "period": lambda _: [(self._period(),)],
@@ -58,6 +59,14 @@ class TaylorMotion:
         ((theta, omega),) = self._flow.at([Fraction(1 / self._problem.rate())])
         numbers = [MPMATH.number(value) for value in (theta, omega, self._problem.g, self._problem.length)]
         return quadrature.to_fraction(energy(MPMATH, *numbers))
+
+
+EVERYTHING = ("theta", "omega", "g", "length")
+
+
+def _by_component(slopes: Sequence[Fraction]) -> tuple[Fraction, ...]:
+    """heyoka's order is component by component, in the order of EVERYTHING."""
+    return tuple(slopes)
 
 
 def through_the_bottom(m: Arithmetic, y: Sequence[Any]) -> Any:
