@@ -10,6 +10,7 @@ import numpy as np
 from reference.names import unknown
 from reference.plan import Coordinate, Group, Layout, Plan
 from reference.problems.pendulum import Pendulum
+from reference.problems.pendulum.quantities import SERVED
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -44,7 +45,12 @@ def pendulum(path: str, long_name: str, stored: tuple[Row, ...]) -> Layout:
     return Layout(path, long_name, (AMPLITUDE,), over, (GRAVITY, LENGTH), stored, released, ELLIPTIC)
 
 
-LIBRATION = pendulum("/pendulum/libration", "pendulum released from rest", Pendulum.rows)
+STORED = tuple(name for name in SERVED["release"] if name != "gradient")
+LIBRATION = pendulum(
+    "/pendulum/libration",
+    "pendulum released from rest",
+    rows(*STORED),
+)
 DIMENSIONLESS = pendulum(
     "/pendulum/dimensionless",
     "pendulum with omega0 = 1 and inputs of few bits, exact in narrow formats",

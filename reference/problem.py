@@ -130,7 +130,12 @@ class Problem:
         return {row.name: row for row in self.rows}[name]
 
     def certified(self, row: str, argument: Any = None, component: int = 0) -> Certified:
-        """One number of a row as a proven scalar."""
+        """One number of a row as a proven scalar.
+
+        Raises:
+            KeyError: there is no such row.
+        """
+        self.row(row)
         return Certified(self, row, argument, component)
 
     def values(self, row: str, arguments: Sequence[Any], count: int) -> np.ndarray:

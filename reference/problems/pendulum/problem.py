@@ -152,10 +152,11 @@ class Pendulum(SeparableProblem):
         """The row of this name.
 
         Raises:
-            KeyError: there is none, or this motion has no such thing.
+            KeyError: there is none.
+            ValueError: this motion has no such thing.
         """
         if name not in SERVED[self.kind] and any(row.name == name for row in self.rows):
-            raise KeyError(f"{name} is not of {self!r}, which is {self.kind}; it has {', '.join(SERVED[self.kind])}.")
+            raise ValueError(f"{name} is not of {self!r}, which is {self.kind}; it has {', '.join(SERVED[self.kind])}.")
         return super().row(name)
 
     @property
@@ -252,7 +253,7 @@ class Pendulum(SeparableProblem):
         """T in s: 4 K(k) sqrt(l/g) in libration, the time of one turn in rotation.
 
         Raises:
-            KeyError: the separatrix and rest have none.
+            ValueError: the separatrix and rest have none.
         """
         return self.certified("period")
 

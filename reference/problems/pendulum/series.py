@@ -3,8 +3,8 @@
     T/T0 = 1 + a^2/16 + 11 a^4/3072 + ...,       T0 = 2 pi sqrt(l/g)
     theta(t) = sum_j a^(2j+1) sum_m c[j][m] cos(m w t),   w^2 l/g = 1 - a^2/8 + 7 a^4/1536 - ...
 
-The first is the series of (2/pi) K(sin(a/2)); the second is found by the method of Lindstedt and Poincare (A. H. Nayfeh,
-Perturbation Methods, 1973, section 3.1) with theta(0) = a, theta'(0) = 0 in every order.
+The first is the series of (2/pi) K(sin(a/2)); the second is found by the method of Lindstedt and Poincare (A. H.
+Nayfeh, Perturbation Methods, 1973, section 3.1) with theta(0) = a, theta'(0) = 0 in every order.
 """
 
 from __future__ import annotations
