@@ -82,7 +82,7 @@ def _add_at(commands: argparse._SubParsersAction[Parser]) -> None:
             default = "" if asked.default is None else f" (default: {asked.default})"
             parser.add_argument(
                 f"--{asked.name}",
-                required=asked.default is None,
+                required=asked.default is None and not asked.optional,
                 default=asked.default,
                 metavar="NUMBER",
                 help=f"{asked.help}, in {asked.units}{default}",
@@ -100,7 +100,7 @@ def _at(asked: argparse.Namespace) -> int:
 
     family = asked.known_as
     digits = at.digits_count(asked.digits)
-    names = [wanted.name for wanted in family.inputs]
+    names = [wanted.name for wanted in family.inputs if getattr(asked, wanted.name) is not None]
     inputs = {name: at.number(name, getattr(asked, name), as_written=asked.exact) for name in (*names, "t")}
     problem = family.problem(**{name: inputs[name] for name in names})
     found = at.quantities(family, problem, inputs["t"])

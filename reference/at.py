@@ -25,12 +25,16 @@ DIGITS_LIMIT = 30_000
 
 @dataclass(frozen=True)
 class Input:
-    """A number that the command line asks for: its units, and its default as it would be typed."""
+    """A number that the command line asks for: its units, and its default as it would be typed.
+
+    What is ``optional`` is left to the problem where it is not given.
+    """
 
     name: str
     units: str
     help: str
     default: str | None = None
+    optional: bool = False
 
 
 @dataclass(frozen=True)
@@ -48,10 +52,11 @@ TIME = Input("t", "s", "time")
 FAMILIES = (
     Family(
         "pendulum",
-        "the mathematical pendulum, released from rest",
+        "the mathematical pendulum, released from rest or set going",
         Pendulum,
         (
-            Input("theta0", "rad", "amplitude, 0 < theta0 < pi"),
+            Input("theta0", "rad", "angle of the start; released from rest, 0 < theta0 < pi"),
+            Input("omega0", "rad s-1", "angular velocity of the start; without it, released from rest", optional=True),
             Input("g", "m s-2", "acceleration of gravity", "9.81"),
             Input("length", "m", "length", "1"),
         ),
@@ -93,6 +98,7 @@ def quantities(family: Family, problem: Problem, time: Fraction) -> list[Certifi
     return [
         problem.certified(name, time if problem.row(name).over == "time" else None, component)
         for name in family.rows
+        if problem.serves(name)
         for component in range(len(problem.row(name).quantities))
     ]
 

@@ -129,6 +129,10 @@ class Problem:
         """
         return {row.name: row for row in self.rows}[name]
 
+    def serves(self, row: str) -> bool:
+        """Whether this problem has a row that its family knows."""
+        return any(known.name == row for known in self.rows)
+
     def certified(self, row: str, argument: Any = None, component: int = 0) -> Certified:
         """One number of a row as a proven scalar.
 

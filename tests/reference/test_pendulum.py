@@ -18,7 +18,7 @@ from reference import Pendulum
 from reference.arithmetic import BALL, MPMATH, NUMPY, Heyoka
 from reference.limbs import WorkBoundError
 from reference.problems.pendulum.equations import angular_acceleration, energy, energy_above_rest
-from reference.problems.pendulum.problem import MAX_EVENTS
+from reference.problems.pendulum.events import MAX_EVENTS
 
 BITS = 3 * 159
 AMPLITUDES = (0.001, 0.301, 1.0, math.pi / 2, 3.0, math.pi - 1e-9)

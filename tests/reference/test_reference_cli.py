@@ -53,6 +53,17 @@ def refused(capsys, *arguments):
     return err
 
 
+def test_a_pendulum_set_going_is_served(capsys):
+    assert main(["at", "pendulum", "--theta0", "0", "--omega0", "7", "--t", "1", "--format", "json"]) == 0
+    found = json.loads(capsys.readouterr().out)
+    assert list(found) == ["theta", "omega", "period", "energy"]
+    assert float(found["energy"]) == 7**2 / 2 - 9.81
+    assert main(["at", "pendulum", "--theta0=0", "--omega0=-2", "--g=1", "--t=1", "--format=json"]) == 0
+    assert list(json.loads(capsys.readouterr().out)) == ["theta", "omega", "energy"]
+    assert main(["at", "pendulum", "--theta0", "-3", "--t", "1"]) == 2
+    assert "0 < theta0 < pi" in capsys.readouterr().err
+
+
 def test_json_is_one_object_of_proven_decimals(capsys):
     assert called(*AT, "--digits", "50", "--format", "json") == 0
     found = json.loads(capsys.readouterr().out)

@@ -1,8 +1,6 @@
-"""The mathematical pendulum, released from rest.
+"""The mathematical pendulum: theta'' = -(g/l) sin theta, released from rest or set going."""
 
-theta'' = -(g/l) sin theta,     theta(0) = theta0 in (0, pi),  theta'(0) = 0
-"""
-
-from reference.problems.pendulum.problem import Events, Pendulum
+from reference.problems.pendulum.events import Events
+from reference.problems.pendulum.problem import Pendulum
 
 __all__ = ["Events", "Pendulum"]

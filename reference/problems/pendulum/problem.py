@@ -16,6 +16,7 @@ from reference.exact import as_number, exact
 from reference.limbs import ziv
 from reference.problem import Row, SeparableProblem
 from reference.problems.pendulum.equations import angular_acceleration, energy_above_rest
+from reference.problems.pendulum.events import Events, events
 from reference.problems.pendulum.motions import (
     Libration,
     Motion,
@@ -34,7 +35,7 @@ if TYPE_CHECKING:
 
     from reference.certify import Certified
 
-__all__ = ["MAX_EVENTS", "Events", "Pendulum"]
+__all__ = ["Pendulum"]
 
 CLOSED_FORMS: dict[str, type[Motion]] = {
     "libration": Libration,
@@ -54,17 +55,8 @@ TAYLOR_BITS = 1024
 """The Taylor route serves starts that need at most this working precision."""
 ROUTE_BITS = 8192
 """No route but the enclosure serves what needs more working precision than this."""
-MAX_EVENTS = 100_000
 DECISION_BITS = 128
 PI = Fraction(math.pi)
-
-
-@dataclass(frozen=True)
-class Events:
-    """Proven times in s: where the pendulum hangs at the bottom, and where it turns back, after the start."""
-
-    zero_crossings: tuple[Certified, ...]
-    turning_points: tuple[Certified, ...]
 
 
 @dataclass(frozen=True, repr=False)
@@ -148,6 +140,10 @@ class Pendulum(SeparableProblem):
 
         return ziv(lambda _: [[enclose()]], certain, 1, DECISION_BITS, f"the motion of {self!r}")[0][0]
 
+    def serves(self, row: str) -> bool:
+        """Whether this motion has the row."""
+        return row in SERVED[self.kind]
+
     def row(self, name: str) -> Row:
         """The row of this name.
 
@@ -155,7 +151,7 @@ class Pendulum(SeparableProblem):
             KeyError: there is none.
             ValueError: this motion has no such thing.
         """
-        if name not in SERVED[self.kind] and any(row.name == name for row in self.rows):
+        if not self.serves(name) and any(row.name == name for row in self.rows):
             raise ValueError(f"{name} is not of {self!r}, which is {self.kind}; it has {', '.join(SERVED[self.kind])}.")
         return super().row(name)
 
@@ -267,36 +263,4 @@ class Pendulum(SeparableProblem):
         Raises:
             ValueError: ``until`` is negative or not finite, or the events before it are more than MAX_EVENTS.
         """
-        end = exact(until, "until")
-        if end < 0:
-            raise ValueError(f"until is {as_number(end)}; a time that is not negative is accepted.")
-        return Events(self._events("zero_crossing", end), self._events("turning_point", end))
-
-    def _events(self, row: str, end: Fraction) -> tuple[Certified, ...]:
-        """The events of one kind up to a time: they are a period or half of one apart."""
-        if end == 0 or row not in SERVED[self.kind]:
-            return ()
-        apart = 1 if self.motion == "rotation" else 2
-
-        def whole() -> arb:
-            form: Any = self.closed_form(BALL)
-            first = getattr(form, row)(0)
-            return BALL.floor((BALL.number(end) - first) * apart / form.period)
-
-        count = max(0, 1 + int(self._decide_whole(whole, end)))
-        if count > MAX_EVENTS:
-            raise ValueError(
-                f"until is {as_number(end)}, with {count} events before it; at most {MAX_EVENTS} are accepted."
-            )
-        return tuple(self.certified(row, j) for j in range(count))
-
-    def _decide_whole(self, enclose: Callable[[], arb], end: Fraction) -> int:
-        bits = DECISION_BITS + self.working_bits([end])
-        found = ziv(
-            lambda _: [[enclose()]],
-            lambda ball: ball if ball.is_finite() else None,
-            1,
-            bits,
-            f"the number of events of {self!r}",
-        )
-        return int(found[0][0].unique_fmpz())
+        return events(self, until)
