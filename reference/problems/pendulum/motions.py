@@ -12,7 +12,6 @@ S, C, D by the reciprocal modulus (DLMF 22.17.2-4); on the separatrix k = 1.
 from __future__ import annotations
 
 from fractions import Fraction
-from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 from mpmath import mp
@@ -43,6 +42,7 @@ class Motion(ClosedForm):
         self.s, self.c = m.sin(self.half), m.cos(self.half)
         self.w = m.sqrt(g / length)
         self.p = omega0 / (2 * self.w)
+        self._duals: dict[int, tuple[DualArithmetic, Motion]] = {}
 
     @property
     def energy(self) -> Any:
@@ -66,24 +66,30 @@ class Motion(ClosedForm):
         rate = 2 * self.w * (p * cn - s * c * sn * dn) / (1 - (s * sn) ** 2)
         return 2 * half + 2 * self.m.pi() * (self.turns + self.turns_at(t)), rate
 
-    @cached_property
-    def _dual(self) -> tuple[DualArithmetic, Motion]:
-        """The same motion in dual numbers, with a slope for each of theta0, omega0, g and l."""
-        m = DualArithmetic(self.m, 4)
-        values = self.theta0, self.omega0, self.g, self.length
-        theta0, omega0, g, length = (m.variable(value, place) for place, value in enumerate(values))
-        return m, type(self)(m, theta0, omega0, g, length, self.turns)
-
     def gradient(self, t: Any) -> tuple[Any, ...]:
         """d(theta, theta')/d(theta0, omega0, g, l) at fixed t: the four of theta, then those of theta'."""
-        m, motion = self._dual
+        return self._slopes(4, t)
+
+    def sensitivity(self, t: Any) -> tuple[Any, ...]:
+        """d(theta, theta')/dtheta0 at fixed t."""
+        return self._slopes(1, t)
+
+    def _slopes(self, width: int, t: Any) -> tuple[Any, ...]:
+        """The slopes of theta, then of theta', by the first ``width`` of theta0, omega0, g and l."""
+        if width not in self._duals:
+            self._duals[width] = self._dual(width)
+        m, motion = self._duals[width]
         theta, omega = motion.state(m.constant(t))
         return *theta.slopes, *omega.slopes
 
-    def sensitivity(self, t: Any) -> tuple[Any, Any]:
-        """d(theta, theta')/dtheta0 at fixed t."""
-        slopes = self.gradient(t)
-        return slopes[0], slopes[4]
+    def _dual(self, width: int) -> tuple[DualArithmetic, Motion]:
+        """The same motion in dual numbers."""
+        m = DualArithmetic(self.m, width)
+        theta0, omega0, g, length = (
+            m.variable(value, place) if place < width else m.constant(value)
+            for place, value in enumerate((self.theta0, self.omega0, self.g, self.length))
+        )
+        return m, type(self)(m, theta0, omega0, g, length, self.turns)
 
 
 class Libration(Motion):

@@ -24,13 +24,14 @@ class TaylorMotion:
 
     def __init__(self, problem: Pendulum, bits: int) -> None:
         self._problem, self._flow = problem, Flow(problem, bits)
+        self._bottom = hanging if problem.motion == "libration" and not problem.turns else through_the_bottom
 
     def rows(self, row: str, arguments: Sequence[Any]) -> list[tuple[Fraction, ...]]:
         by_row: dict[str, Callable[[Sequence[Any]], list[tuple[Fraction, ...]]]] = {
             "state": self._flow.at,
             "sensitivity": lambda times: [state[2:] for state in self._flow.at(times, ("theta",))],
             "gradient": lambda times: [_by_component(state[2:]) for state in self._flow.at(times, EVERYTHING)],
-            "zero_crossing": lambda indices: self._at_zeros(through_the_bottom, indices),
+            "zero_crossing": lambda indices: self._at_zeros(self._bottom, indices),
             "turning_point": lambda indices: self._at_zeros(at_rest, indices),
             "period": lambda _: [(self._period(),)],
             "dperiod_damplitude": lambda _: [(self._period_by_amplitude(),)],
@@ -45,12 +46,12 @@ class TaylorMotion:
 
     def _period(self) -> Fraction:
         """From one passage through the bottom to the next, which in libration is half a period."""
-        (first,), (second,) = self._at_zeros(through_the_bottom, (0, 1))
+        (first,), (second,) = self._at_zeros(self._bottom, (0, 1))
         return (second - first) * (1 if self._problem.motion == "rotation" else 2)
 
     def _period_by_amplitude(self) -> Fraction:
         """theta(T/4) = 0 for every amplitude: dT/dtheta0 = -4 (dtheta/dtheta0)/theta' at T/4."""
-        ((quarter,),) = self._at_zeros(through_the_bottom, (0,))
+        ((quarter,),) = self._at_zeros(self._bottom, (0,))
         ((_, omega, dtheta, _),) = self._flow.at([quarter], ("theta",))
         return -4 * dtheta / omega * (1 if self._problem.theta0 > 0 else -1)
 
@@ -67,6 +68,12 @@ EVERYTHING = ("theta", "omega", "g", "length")
 def _by_component(slopes: Sequence[Fraction]) -> tuple[Fraction, ...]:
     """heyoka's order is component by component, in the order of EVERYTHING."""
     return tuple(slopes)
+
+
+def hanging(m: Arithmetic, y: Sequence[Any]) -> Any:
+    """Zero where theta is: the same as below, and cheaper, where there are no whole turns."""
+    del m
+    return y[0]
 
 
 def through_the_bottom(m: Arithmetic, y: Sequence[Any]) -> Any:
