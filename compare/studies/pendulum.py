@@ -64,13 +64,7 @@ def study(
     kept, exact_orbits = _traces(scored) if traces else ((), ())
     return Study(
         problem="pendulum",
-        parameters={
-            "theta0": [as_number(problem.theta0) for problem in problems],
-            "g": as_number(problems[0].g),
-            "length": as_number(problems[0].length),
-            "t_end": as_number(scored.t_end),
-            "samples": SAMPLES,
-        },
+        parameters=_parameters(problems, scored),
         reference={
             "version": __version__,
             "routes": ["enclosure", *ROUTES],
@@ -84,6 +78,17 @@ def study(
         traces=kept,
         exact=exact_orbits,
     )
+
+
+def _parameters(problems: Sequence[Pendulum], scored: Scored) -> dict[str, Any]:
+    """What was marched: floats where they are exact, else the decimal or fraction."""
+    return {
+        "theta0": [as_number(problem.theta0) for problem in problems],
+        "g": as_number(problems[0].g),
+        "length": as_number(problems[0].length),
+        "t_end": as_number(scored.t_end),
+        "samples": SAMPLES,
+    }
 
 
 def _traces(scored: Scored) -> tuple[tuple[Trace, ...], tuple[Trace, ...]]:
