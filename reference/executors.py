@@ -94,22 +94,21 @@ def _follow_parent() -> None:
 
 @contextmanager
 def _dask(address: str) -> Iterator[Executor]:
-    try:
-        client_class = import_module("dask.distributed").Client
-    except ImportError:
-        raise ImportError("dask.distributed is not installed; 'pip install horologium[cluster]' provides it.") from None
-    with client_class(address) as client:
+    with _cluster_module("dask.distributed", "dask.distributed").Client(address) as client:
         yield client.get_executor()
 
 
 @contextmanager
 def _mpi(jobs: int) -> Iterator[Executor]:
-    try:
-        pool_class = import_module("mpi4py.futures").MPIPoolExecutor
-    except ImportError:
-        raise ImportError("mpi4py is not installed; 'pip install horologium[cluster]' provides it.") from None
-    with pool_class(max_workers=jobs) as executor:
+    with _cluster_module("mpi4py.futures", "mpi4py").MPIPoolExecutor(max_workers=jobs) as executor:
         yield executor
+
+
+def _cluster_module(name: str, package: str) -> Any:
+    try:
+        return import_module(name)
+    except ImportError:
+        raise ImportError(f"{package} is not installed; 'pip install horologium[cluster]' provides it.") from None
 
 
 def results(

@@ -137,12 +137,17 @@ def to_limbs(count: int) -> tuple[Callable[[arb], Limbs | None], Callable[[Fract
 
 def decimal(bounds: Interval | None, digits: int) -> str | None:
     """Return the decimal of ``digits`` significant digits that every point of the interval rounds to, or None."""
+    return _shared(bounds, lambda value: exact_decimal(value, digits))
+
+
+def _shared(bounds: Interval | None, spell: Callable[[Fraction], str]) -> str | None:
+    """The text of both ends of the interval, and so of every point between them; None where they differ."""
     if bounds is None:
         return None
     low, high, exponent = bounds
     scale = Fraction(2) ** exponent
-    text = exact_decimal(low * scale, digits)
-    return text if exact_decimal(high * scale, digits) == text else None
+    text = spell(low * scale)
+    return text if spell(high * scale) == text else None
 
 
 def exact_decimal(value: Fraction, digits: int) -> str:
@@ -166,16 +171,10 @@ def fixed(value: Fraction, places: int) -> str:
 def to_fixed(places: int) -> tuple[Callable[[arb], str | None], Callable[[Fraction], str]]:
     """How a ball and how an exact rational give their decimal of ``places`` places."""
 
-    def of_ball(ball: arb) -> str | None:
-        bounds = interval(ball)
-        if bounds is None:
-            return None
-        low, high, exponent = bounds
-        scale = Fraction(2) ** exponent
-        text = fixed(low * scale, places)
-        return text if fixed(high * scale, places) == text else None
+    def spell(value: Fraction) -> str:
+        return fixed(value, places)
 
-    return of_ball, lambda value: fixed(value, places)
+    return lambda ball: _shared(interval(ball), spell), spell
 
 
 def ziv(

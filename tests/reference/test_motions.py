@@ -128,6 +128,18 @@ def test_rotation_advances_one_turn_a_period() -> None:
     np.testing.assert_allclose(np.diff(theta) / (2 * np.pi), [1, 4], atol=1e-14)
 
 
+@every_start
+def test_a_pendulum_reads_back_from_its_repr(kind: str, theta0: float, omega0: float | None) -> None:
+    problem = pendulum(kind, theta0, omega0)
+    assert eval(repr(problem), {"Pendulum": Pendulum}) == problem  # noqa: S307 - our own text
+
+
+@pytest.mark.parametrize("name", ["theta0", "g", "length"])
+def test_nothing_but_the_velocity_may_be_left_unsaid(name: str) -> None:
+    with pytest.raises(TypeError, match=f"{name} is of type NoneType"):
+        Pendulum(**{"theta0": 1.0, name: None})
+
+
 def test_time_runs_backwards_too() -> None:
     forward = Pendulum(0.5, omega0=7).state([0.3, 2.0])
     backward = Pendulum(-0.5, omega0=7).state([-0.3, -2.0])

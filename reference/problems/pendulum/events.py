@@ -18,10 +18,11 @@ if TYPE_CHECKING:
     from reference.certify import Certified
     from reference.problems.pendulum.problem import Pendulum
 
-__all__ = ["MAX_EVENTS", "Events", "events"]
+__all__ = ["DECISION_BITS", "MAX_EVENTS", "Events", "events"]
 
 MAX_EVENTS = 100_000
 DECISION_BITS = 128
+"""Precision at which a question of yes or no, or of a whole number, is first asked."""
 
 
 @dataclass(frozen=True)

@@ -16,7 +16,7 @@ from reference.exact import as_number, exact
 from reference.limbs import ziv
 from reference.problem import Row, SeparableProblem
 from reference.problems.pendulum.equations import angular_acceleration, energy_above_rest
-from reference.problems.pendulum.events import Events, events
+from reference.problems.pendulum.events import DECISION_BITS, Events, events
 from reference.problems.pendulum.motions import (
     Libration,
     Motion,
@@ -55,7 +55,6 @@ TAYLOR_BITS = 1024
 """The Taylor route serves starts that need at most this working precision."""
 ROUTE_BITS = 8192
 """No route but the enclosure serves what needs more working precision than this."""
-DECISION_BITS = 128
 PI = Fraction(math.pi)
 
 
@@ -87,18 +86,24 @@ class Pendulum(SeparableProblem):
     positions: ClassVar[int] = 1
 
     def __init__(self, theta0: Any, g: Any = 9.81, length: Any = 1.0, omega0: Any = None) -> None:
-        for name, value in (("theta0", theta0), ("g", g), ("length", length), ("omega0", omega0)):
-            object.__setattr__(self, name, Fraction(0) if value is None else exact(value, name))
-        if omega0 is None and not (self.theta0 > 0 and self.turns == 0):
+        going = 0 if omega0 is None else omega0
+        for name, value in (("theta0", theta0), ("g", g), ("length", length), ("omega0", going)):
+            object.__setattr__(self, name, exact(value, name))
+        if omega0 is None and not self._is_amplitude:
             raise ValueError(f"theta0 is {as_number(self.theta0)}; an amplitude with 0 < theta0 < pi is accepted.")
         for name in ("g", "length"):
             if getattr(self, name) <= 0:
                 raise ValueError(f"{name} is {as_number(getattr(self, name))}; a positive number is accepted.")
 
     def __repr__(self) -> str:
-        going = f", omega0={as_number(self.omega0)!r}" if self.omega0 else ""
+        going = "" if self.omega0 == 0 and self._is_amplitude else f", omega0={as_number(self.omega0)!r}"
         fixed = f"g={as_number(self.g)!r}, length={as_number(self.length)!r}"
         return f"Pendulum(theta0={as_number(self.theta0)!r}, {fixed}{going})"
+
+    @property
+    def _is_amplitude(self) -> bool:
+        """Whether theta0 is one that a release from rest takes: 0 < theta0 < pi."""
+        return self.theta0 > 0 and self.turns == 0
 
     @property
     def parameters(self) -> dict[str, Fraction]:
@@ -113,8 +118,8 @@ class Pendulum(SeparableProblem):
         """Whole turns in theta0: the integer nearest to theta0/(2 pi)."""
         if abs(self.theta0) < 3:
             return 0
-        half = Fraction(1, 2)
-        whole = self._decide(lambda: BALL.floor(BALL.number(self.theta0) / (2 * BALL.pi()) + BALL.number(half)))
+        half, what = Fraction(1, 2), f"the whole turns in theta0 = {as_number(self.theta0)}"
+        whole = _decide(lambda: BALL.floor(BALL.number(self.theta0) / (2 * BALL.pi()) + BALL.number(half)), what)
         return int(whole.unique_fmpz())
 
     @cached_property
@@ -129,16 +134,9 @@ class Pendulum(SeparableProblem):
             return (
                 "rest" if not quarter else "separatrix" if quarter == 1 else "rotation" if quarter > 1 else "libration"
             )
-        excess = self._decide(lambda: BALL.number(quarter) - BALL.cos(BALL.number(self.theta0) / 2) ** 2)
+        what = f"the motion of {self!r}"
+        excess = _decide(lambda: BALL.number(quarter) - BALL.cos(BALL.number(self.theta0) / 2) ** 2, what)
         return "rotation" if excess > 0 else "libration"
-
-    def _decide(self, enclose: Callable[[], arb]) -> arb:
-        """A finite ball that is a point or does not contain zero."""
-
-        def certain(ball: arb) -> arb | None:
-            return ball if (ball.is_exact() and ball.is_finite()) or not ball.contains(0) else None
-
-        return ziv(lambda _: [[enclose()]], certain, 1, DECISION_BITS, f"the motion of {self!r}")[0][0]
 
     def serves(self, row: str) -> bool:
         """Whether this motion has the row."""
@@ -264,3 +262,12 @@ class Pendulum(SeparableProblem):
             ValueError: ``until`` is negative or not finite, or the events before it are more than MAX_EVENTS.
         """
         return events(self, until)
+
+
+def _decide(enclose: Callable[[], arb], what: str) -> arb:
+    """A finite ball that is a point or does not contain zero, around the number that is called ``what``."""
+
+    def certain(ball: arb) -> arb | None:
+        return ball if (ball.is_exact() and ball.is_finite()) or not ball.contains(0) else None
+
+    return ziv(lambda _: [[enclose()]], certain, 1, DECISION_BITS, what)[0][0]

@@ -30,7 +30,7 @@ class TaylorMotion:
         by_row: dict[str, Callable[[Sequence[Any]], list[tuple[Fraction, ...]]]] = {
             "state": self._flow.at,
             "sensitivity": lambda times: [state[2:] for state in self._flow.at(times, ("theta",))],
-            "gradient": lambda times: [_by_component(state[2:]) for state in self._flow.at(times, EVERYTHING)],
+            "gradient": lambda times: [state[2:] for state in self._flow.at(times, EVERYTHING)],
             "zero_crossing": lambda indices: self._at_zeros(self._bottom, indices),
             "turning_point": lambda indices: self._at_zeros(at_rest, indices),
             "period": lambda _: [(self._period(),)],
@@ -63,11 +63,6 @@ class TaylorMotion:
 
 
 EVERYTHING = ("theta", "omega", "g", "length")
-
-
-def _by_component(slopes: Sequence[Fraction]) -> tuple[Fraction, ...]:
-    """heyoka's order is component by component, in the order of EVERYTHING."""
-    return tuple(slopes)
 
 
 def hanging(m: Arithmetic, y: Sequence[Any]) -> Any:
