@@ -9,15 +9,29 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
-from flint import arb, fmpq
+from flint import acb, arb, fmpq
 from mpmath import mp
 
+from reference.calculus import ball_integral, ball_root, mpmath_integral, mpmath_root
 from reference.elliptic import BallElliptic, MpmathElliptic
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
     from fractions import Fraction
 
-__all__ = ["BALL", "MPMATH", "NUMPY", "Arithmetic", "Ball", "EllipticArithmetic", "Heyoka", "Mpmath", "Numpy"]
+__all__ = [
+    "BALL",
+    "MPMATH",
+    "NUMPY",
+    "Arithmetic",
+    "Ball",
+    "CalculusArithmetic",
+    "ComplexBall",
+    "EllipticArithmetic",
+    "Heyoka",
+    "Mpmath",
+    "Numpy",
+]
 
 
 class Arithmetic(Protocol):
@@ -39,6 +53,13 @@ class EllipticArithmetic(Arithmetic, Protocol):
     def cosh(self, x: Any) -> Any: ...
     def floor(self, x: Any) -> Any: ...
     def elliptic(self, k: Any, kc: Any) -> Any: ...
+
+
+class CalculusArithmetic(EllipticArithmetic, Protocol):
+    """What a closed form may ask for that is an integral or a zero."""
+
+    def integral(self, function: Callable[[Any, Any], Any], low: Any, high: Any) -> Any: ...
+    def root(self, function: Callable[[Any, Any], Any], low: Any, high: Any) -> Any: ...
 
 
 class Ball:
@@ -88,6 +109,52 @@ class Ball:
     def sqrt(x: arb) -> arb:
         return x.sqrt()
 
+    @staticmethod
+    def integral(function: Callable[[Any, Any], Any], low: Any, high: Any) -> arb:
+        """The integral of function(m, x), real and analytic on [low, high]."""
+        return ball_integral(ComplexBall, function, low, high)
+
+    def root(self, function: Callable[[Any, Any], Any], low: Any, high: Any) -> arb:
+        """The one zero of the monotone function(m, x) in [low, high], its ends exact or balls."""
+        return ball_root(self, function, low, high)
+
+
+class ComplexBall:
+    """Arb's complex balls, for the integrands of ``Ball.integral``.
+
+    Where ``analytic`` is set, a function that is not analytic on the whole of its argument gives no number.
+    """
+
+    def __init__(self, analytic: bool) -> None:
+        self.analytic = analytic
+
+    @staticmethod
+    def number(value: Fraction) -> acb:
+        return acb(fmpq(value.numerator, value.denominator))
+
+    @staticmethod
+    def sin(x: Any) -> acb:
+        return acb(x).sin()
+
+    @staticmethod
+    def cos(x: Any) -> acb:
+        return acb(x).cos()
+
+    @staticmethod
+    def sinh(x: Any) -> acb:
+        return acb(x).sinh()
+
+    @staticmethod
+    def cosh(x: Any) -> acb:
+        return acb(x).cosh()
+
+    @staticmethod
+    def pi() -> acb:
+        return acb.pi()
+
+    def sqrt(self, x: Any) -> acb:
+        return acb(x).sqrt(analytic=self.analytic)
+
 
 class Mpmath:
     """mpmath's numbers at its working precision."""
@@ -105,6 +172,14 @@ class Mpmath:
     @staticmethod
     def pi() -> Any:
         return +mp.pi
+
+    def integral(self, function: Callable[[Any, Any], Any], low: Any, high: Any) -> Any:
+        """The integral of function(m, x), analytic on [low, high]."""
+        return mpmath_integral(self, function, low, high)
+
+    def root(self, function: Callable[[Any, Any], Any], low: Any, high: Any) -> Any:
+        """The one zero of the monotone function(m, x) in [low, high]."""
+        return mpmath_root(self, function, low, high)
 
     @staticmethod
     def number(value: Fraction) -> Any:

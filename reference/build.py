@@ -7,7 +7,6 @@ import math
 import os
 import platform
 import shutil
-from collections import defaultdict
 from dataclasses import dataclass, field
 from datetime import UTC, datetime
 from importlib.metadata import version as installed
@@ -29,6 +28,7 @@ if TYPE_CHECKING:
     from reference.blocks import Result
     from reference.partial import Partial
     from reference.plan import Plan
+    from reference.problem import Row
     from reference.store.writer import Writer
 
 __all__ = ["build", "provenance"]
@@ -95,6 +95,7 @@ def _prove(plan: Plan, finished: Partial, jobs: int, executor: str, progress: Ca
 class Tally:
     """What is known of one variable besides its values, gathered block by block."""
 
+    row: Row
     decimals: list[str] = field(default_factory=list)
     digits: list[float] = field(default_factory=lambda: [math.inf] * len(ROUTES))
     checked: list[int] = field(default_factory=lambda: [0] * len(ROUTES))
@@ -110,7 +111,7 @@ class Tally:
 
     def attributes(self) -> dict[str, str | float | int]:
         """The attributes that a variable carries of it."""
-        return attributes(self.digits, self.checked, self.decimals)
+        return attributes(self.row, self.digits, self.checked, self.decimals)
 
 
 def _write(plan: Plan, target: Path, finished: Partial) -> str:
@@ -126,13 +127,13 @@ def _write(plan: Plan, target: Path, finished: Partial) -> str:
 
 
 def _fill(plan: Plan, writer: Writer, finished: Partial) -> None:
-    tallies: dict[str, Tally] = defaultdict(Tally)
+    tallies: dict[str, Tally] = {}
     trajectories: dict[tuple[str, int, str], list[int]] = {}
     for block in plan.blocks():
         result = finished.get(block) or compute(block)
         writer.put(block, result.limbs)
         for i, quantity in enumerate(block.row.quantities):
-            tallies[f"{block.layout.path}/{quantity.name}"].add(result, i)
+            tallies.setdefault(f"{block.layout.path}/{quantity.name}", Tally(block.row)).add(result, i)
         so_far = trajectories.setdefault((block.layout.path, block.element, block.row.name), [0] * len(ROUTES))
         so_far[:] = [a + int(b) for a, b in zip(so_far, result.checked[:, 0], strict=True)]
     _require_checked(trajectories)

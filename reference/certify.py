@@ -23,7 +23,7 @@ from reference.routes import enclosure
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from reference.problem import Problem, Quantity
+    from reference.problem import Problem, Quantity, Row
 
 __all__ = ["REQUIRED_DIGITS", "ROUTES", "Agreement", "Certified", "DisagreementError", "agreement"]
 
@@ -58,15 +58,15 @@ def agreement(problem: Problem, row: str, arguments: Sequence[Any], route: str) 
     if found is None:
         return None
     proven = enclosure.balls(problem, row, arguments, int(ROUTE_DIGITS * 3.33) + 20)
-    results = []
-    for i, quantity in enumerate(problem.row(row).quantities):
+    asked, results = problem.row(row), []
+    for i, quantity in enumerate(asked.quantities):
         pairs = [(truth[i], value[i]) for truth, value in zip(proven, found, strict=True)]
         digits = _digits(pairs)
         worst = min(range(len(pairs)), key=digits.__getitem__)
         if digits[worst] < REQUIRED_DIGITS:
             truth, value = pairs[worst]
             raise DisagreementError(
-                f"{quantity.name} of {problem!r} at {_shown(arguments[worst])} is {truth.str(50, radius=False)} "
+                f"{quantity.name} of {problem!r} at {_shown(asked, arguments[worst])} is {truth.str(50, radius=False)} "
                 f"by the enclosure and {exact_decimal(value, 50)} by {route}: "
                 f"{digits[worst]:.1f} digits agree where {REQUIRED_DIGITS} must."
             )
@@ -83,10 +83,11 @@ def _digits(pairs: Sequence[tuple[arb, Fraction]]) -> list[float]:
     return [min(float(ROUTE_DIGITS), -math.log10(gap)) if gap else float(ROUTE_DIGITS) for gap in gaps]
 
 
-def _shown(argument: Any) -> str:
+def _shown(row: Row, argument: Any) -> str:
     if argument is None:
         return "the given parameters"
-    return f"t = {spelled(argument)}" if isinstance(argument, Fraction) else f"index {argument}"
+    name = "t" if row.over == "time" else row.over
+    return f"{name} = {spelled(argument)}" if isinstance(argument, Fraction) else f"index {argument}"
 
 
 @dataclass(frozen=True)

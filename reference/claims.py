@@ -15,30 +15,31 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping, Sequence
     from typing import Any
 
+    from reference.problem import Row
     from reference.store import Variable
 
 __all__ = ["attributes", "decimal_fault", "measurement_fault"]
 
 
 def attributes(
-    digits: Sequence[float], checked: Sequence[int], decimals: Sequence[str]
+    row: Row, digits: Sequence[float], checked: Sequence[int], decimals: Sequence[str]
 ) -> dict[str, str | float | int]:
-    """The attributes of a variable: for each of ROUTES its digits over how many elements; its decimals in order."""
+    """The attributes of a row's variable: for each of ROUTES its digits over how many elements; its decimals."""
     found: dict[str, str | float | int] = {}
     for route, agreed, count in zip(ROUTES, digits, checked, strict=True):
         found[f"{route}_checked_elements"] = count
         if count:
             found[f"{route}_digits"] = agreed
         else:
-            found[f"{route}_reason"] = _reason(route)
+            found[f"{route}_reason"] = _reason(row, route)
     found["checked_elements"] = min(count for count in checked if count)
     if decimals:
         found["decimal"] = " ".join(decimals)
     return found
 
 
-def _reason(route: str) -> str:
-    return f"the {route} route does not give this quantity"
+def _reason(row: Row, route: str) -> str:
+    return dict(row.lacks).get(route, f"the {route} route does not reach these arguments")
 
 
 def decimal_fault(variable: Variable, proven: Sequence[str], limit: int) -> str:
@@ -57,8 +58,8 @@ def decimal_fault(variable: Variable, proven: Sequence[str], limit: int) -> str:
     return ""
 
 
-def measurement_fault(variable: Variable, agreeing: Iterable[str]) -> str:
-    """What is wrong with a variable's measurements, given the routes that agree again; empty where nothing is."""
+def measurement_fault(variable: Variable, row: Row, agreeing: Iterable[str]) -> str:
+    """What is wrong with the measurements of a row's variable, given the routes that agree again; empty where none."""
     said: Mapping[str, Any] = variable.attrs
     served = set(agreeing)
     counts = []
@@ -78,7 +79,7 @@ def measurement_fault(variable: Variable, agreeing: Iterable[str]) -> str:
         digits = said.get(f"{route}_digits", math.inf)
         if count and not (isinstance(digits, float) and REQUIRED_DIGITS <= digits <= ROUTE_DIGITS):
             return f"the attribute '{route}_digits' is {digits}; from {REQUIRED_DIGITS} to {ROUTE_DIGITS} are possible"
-        if not count and said[f"{route}_reason"] != _reason(route):
+        if not count and said[f"{route}_reason"] != _reason(row, route):
             return f"the attribute '{route}_reason' is not the schema's"
         counts.append(count)
     if said.get("checked_elements") != min((count for count in counts if count), default=None):

@@ -183,6 +183,7 @@ def ziv(
     count: int,
     bits: int,
     what: str,
+    max_bits: int = MAX_BITS,
 ) -> list[list[Answer]]:
     """Ziv's loop over ``count`` rows of balls: double the precision until every ball of every row is decided.
 
@@ -190,14 +191,14 @@ def ziv(
     answer of all its points, or None.
 
     Raises:
-        WorkBoundError: a row is undecided at MAX_BITS bits.
+        WorkBoundError: a row is undecided at ``max_bits`` bits.
     """
     answers: dict[int, list[Answer]] = {}
     pending = list(range(count))
     while pending:
-        if bits > MAX_BITS:
+        if bits > max_bits:
             raise WorkBoundError(
-                f"{what} could not be decided with {MAX_BITS} bits of working precision, the limit; "
+                f"{what} could not be decided with {max_bits} bits of working precision, the limit; "
                 "a value this close to a rounding boundary, or a time this long, is not served."
             )
         with ctx.workprec(bits):

@@ -1,22 +1,25 @@
 """What a problem is: frozen data, its equations, and the names of what can be asked of it.
 
 A problem's *rows* are the things that are computed together: one number for the whole motion (a period), one per
-index (the zero crossings) or a tuple per time (the state).  Each route is a *solution*, an object that answers every
-row it serves; the closed form in balls, in mpmath, and heyoka's Taylor method differ in nothing else.
+index (the zero crossings) or a tuple per time, angle or fraction of the way (the state).  Each route is a *solution*,
+an object that answers every row it serves; the closed form in balls, in mpmath, and heyoka's Taylor method differ in
+nothing else.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import TYPE_CHECKING, Any, ClassVar, Literal, Protocol
+from typing import TYPE_CHECKING, Any, ClassVar, Protocol
 
 import numpy as np
+from mpmath import mp
 
+from reference.arithmetic import MPMATH
 from reference.certify import Certified
 from reference.exact import exact_array, positive
-from reference.limbs import to_limbs
-from reference.routes import enclosure
+from reference.limbs import MAX_BITS, to_limbs
+from reference.routes import enclosure, quadrature
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -24,6 +27,11 @@ if TYPE_CHECKING:
     from reference.arithmetic import Arithmetic
 
 __all__ = ["ClosedForm", "Problem", "Quantity", "Row", "SeparableProblem", "Solution"]
+
+TAYLOR_BITS = 1024
+"""The Taylor route serves what needs at most this working precision."""
+ROUTE_BITS = 8192
+"""No route but the enclosure serves what needs more working precision than this."""
 
 
 @dataclass(frozen=True)
@@ -38,11 +46,16 @@ class Quantity:
 
 @dataclass(frozen=True)
 class Row:
-    """Quantities that are computed together, and what they are a function of."""
+    """Quantities that are computed together, and what they are a function of.
+
+    ``over`` is "once", "index" (0, 1, 2, ...) or the name of an exact real argument, such as "time"; ``lacks`` pairs
+    each route that cannot give the row with the reason.
+    """
 
     name: str
     quantities: tuple[Quantity, ...]
-    over: Literal["once", "index", "time"]
+    over: str
+    lacks: tuple[tuple[str, str], ...] = ()
 
 
 class Solution(Protocol):
@@ -71,6 +84,8 @@ class Problem:
     name: ClassVar[str]
     rows: ClassVar[tuple[Row, ...]]
     state_names: ClassVar[tuple[str, ...]]
+    max_bits: ClassVar[int] = MAX_BITS
+    """Working precision at which a proof is given up: lower where a value takes an integral."""
 
     @property
     def parameters(self) -> dict[str, Fraction]:
@@ -107,8 +122,21 @@ class Problem:
         """The solution in one arithmetic with elliptic functions."""
         raise NotImplementedError
 
-    def exact_row(self, row: str, argument: Any) -> tuple[Fraction, ...] | None:
-        """The values of a row where they are exactly rational, which no ball could decide; None elsewhere."""
+    def quadrature_form(self) -> Solution:
+        """The solution by mpmath at its working precision, built in it."""
+        return self.closed_form(MPMATH)
+
+    def taylor_form(self, bits: int) -> Solution:
+        """The solution by heyoka's Taylor method in MPFR arithmetic of ``bits`` bits."""
+        raise NotImplementedError
+
+    def within_taylor(self, row: str, arguments: Sequence[Any]) -> bool:
+        """Whether the Taylor route reaches all of these arguments in bounded work."""
+        del row, arguments
+        return True
+
+    def exact_row(self, row: str, argument: Any) -> tuple[Fraction | None, ...] | None:
+        """The values of a row that are exactly rational, which no ball could decide; None for those that are not."""
         raise NotImplementedError
 
     def working_bits(self, arguments: Sequence[Any]) -> int:
@@ -119,7 +147,15 @@ class Problem:
         self, route: str, row: str, arguments: Sequence[Any], digits: int
     ) -> list[tuple[Fraction, ...]] | None:
         """The values of a row by "taylor" or "quadrature", good to ``digits`` digits; None if it has no such row."""
-        raise NotImplementedError
+        bits = int(digits * 3.33) + 2 * self.working_bits(arguments) + 30
+        if route in dict(self.row(row).lacks) or bits > ROUTE_BITS:
+            return None
+        if route == "quadrature":
+            return quadrature.rows(self.quadrature_form, row, arguments, bits)
+        if bits > TAYLOR_BITS or not self.within_taylor(row, arguments):
+            return None
+        with mp.workprec(bits):
+            return self.taylor_form(bits).rows(row, arguments)
 
     def row(self, name: str) -> Row:
         """The row of this name.

@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
     from reference.plan import Block
+    from reference.problem import Row
     from reference.store import Dataset
 
 __all__ = ["Proof", "verify"]
@@ -34,6 +35,7 @@ class Proof:
 
     Attributes:
         name: path without the leading slash.
+        row: the row that it is of.
         elements: how many were proven again; each has three limbs.
         wrong: how many differ in a limb.
         first: the first that differs, in words, or what else the file says wrongly of it; empty where nothing does.
@@ -42,6 +44,7 @@ class Proof:
     """
 
     name: str
+    row: Row
     elements: int = 0
     wrong: int = 0
     first: str = ""
@@ -77,7 +80,9 @@ def verify(
     dataset = load(path)
     groups = [_group(dataset, layout.path) for layout in dataset.layouts]
     proofs = {
-        (group.layout.path, component.quantity.name): Proof(f"{group.layout.path[1:]}/{component.quantity.name}")
+        (group.layout.path, component.quantity.name): Proof(
+            f"{group.layout.path[1:]}/{component.quantity.name}", component.row
+        )
         for group in groups
         for component in group.layout.variables
     }
@@ -95,7 +100,9 @@ def verify(
     for proof in proofs.values():
         said, texts = dataset[proof.name], [proof.decimals[element] for element in sorted(proof.decimals)]
         proof.first = (
-            proof.first or decimal_fault(said, texts, ATTRIBUTE_LIMIT) or measurement_fault(said, proof.digits)
+            proof.first
+            or decimal_fault(said, texts, ATTRIBUTE_LIMIT)
+            or measurement_fault(said, proof.row, proof.digits)
         )
     return list(proofs.values())
 

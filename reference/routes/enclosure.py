@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from flint import arb, ctx
@@ -11,7 +12,6 @@ from reference.limbs import ziv
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
-    from fractions import Fraction
 
     from reference.problem import Problem
 
@@ -34,21 +34,32 @@ def decide(
     Raises:
         WorkBoundError: a ball is undecided at the bound on the working precision.
     """
-    answers: dict[int, list[Answer]] = {}
-    for i, argument in enumerate(arguments):
-        exact = problem.exact_row(row, argument)
-        if exact is not None:
-            answers[i] = [of_exact(value) for value in exact]
-    open_rows = [i for i in range(len(arguments)) if i not in answers]
+    rational = [problem.exact_row(row, argument) for argument in arguments]
+    open_rows = [i for i, known in enumerate(rational) if known is None or None in known]
 
-    def enclose(rows: Sequence[int]) -> Sequence[Sequence[arb]]:
-        return problem.closed_form(BALL).rows(row, [arguments[open_rows[i]] for i in rows])
+    def enclose(rows: Sequence[int]) -> Sequence[Sequence[Any]]:
+        indices = [open_rows[i] for i in rows]
+        balls = problem.closed_form(BALL).rows(row, [arguments[i] for i in indices])
+        return [_known(rational[i], found) for i, found in zip(indices, balls, strict=True)]
+
+    def answer(value: Any) -> Answer | None:
+        return of_exact(value) if isinstance(value, Fraction) else of_ball(value)
 
     start = bits + GUARD_BITS + problem.working_bits([arguments[i] for i in open_rows])
     what = f"{row} of {problem!r}"
-    decided = ziv(enclose, of_ball, len(open_rows), start, what) if open_rows else []
-    answers.update(zip(open_rows, decided, strict=True))
-    return [answers[i] for i in range(len(arguments))]
+    decided = ziv(enclose, answer, len(open_rows), start, what, problem.max_bits) if open_rows else []
+    answers = dict(zip(open_rows, decided, strict=True))
+    return [
+        answers[i] if known is None or i in answers else [of_exact(value) for value in known if value is not None]
+        for i, known in enumerate(rational)
+    ]
+
+
+def _known(rational: Sequence[Fraction | None] | None, balls: Sequence[arb]) -> Sequence[Any]:
+    """The balls of one row, with what is exactly rational in its place."""
+    if rational is None:
+        return balls
+    return [ball if value is None else value for value, ball in zip(rational, balls, strict=True)]
 
 
 def balls(problem: Problem, row: str, arguments: Sequence[Any], bits: int) -> list[tuple[arb, ...]]:

@@ -9,7 +9,6 @@ import pytest
 from independent import correct_limbs, fraction
 from mpmath import mp
 
-import reference.limbs
 from reference import Certified, Pendulum
 from reference.certify import DisagreementError, agreement
 from reference.limbs import WorkBoundError
@@ -117,7 +116,7 @@ def test_a_wrong_index_is_named(monkeypatch):
 
 
 def test_what_needs_more_bits_than_the_limit_is_an_error(monkeypatch):
-    monkeypatch.setattr(reference.limbs, "MAX_BITS", 256)
+    monkeypatch.setattr(Pendulum, "max_bits", 256)
     assert Pendulum(1.0).period().digits(20)
     with pytest.raises(WorkBoundError, match=r"^period of Pendulum\(theta0=1.0.* could not be decided with 256 bits"):
         Pendulum(1.0).period().digits(200)

@@ -280,7 +280,7 @@ def test_a_value_beyond_the_range_of_a_double_is_refused_but_has_digits():
 
 def test_a_failed_call_leaves_the_working_precision_as_it_was(monkeypatch):
     before = ctx.prec, mp.prec
-    monkeypatch.setattr("reference.limbs.MAX_BITS", 150)
+    monkeypatch.setattr(Pendulum, "max_bits", 150)
     with pytest.raises(WorkBoundError):
         Pendulum(1.0).state(1.0, limbs=3)
     monkeypatch.undo()

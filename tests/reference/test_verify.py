@@ -130,7 +130,7 @@ def test_a_wrong_digit_of_a_published_decimal_is_found(built):
         ("theta", "taylor_digits", float("inf")),
         ("theta", "taylor_digits", 60),
         ("theta", "taylor_digits", None),
-        ("theta", "taylor_reason", "the taylor route does not give this quantity"),
+        ("theta", "taylor_reason", "the taylor route does not reach these arguments"),
         ("theta", "quadrature_checked_elements", 0),
         ("theta", "quadrature_checked_elements", 7),
         ("theta", "quadrature_checked_elements", -1),
@@ -157,7 +157,7 @@ def test_a_route_that_is_said_not_to_serve_must_not_serve(built):
         target = file["pendulum/dimensionless/theta"]
         del target.attrs["taylor_digits"]
         say(target, "taylor_checked_elements", 0)
-        say(target, "taylor_reason", "the taylor route does not give this quantity")
+        say(target, "taylor_reason", "the taylor route does not reach these arguments")
 
     forge(built, change)
     assert [proof.holds for proof in verify(built)] == [False, True, True]

@@ -28,7 +28,6 @@ from reference.problems.pendulum.motions import (
 )
 from reference.problems.pendulum.quantities import ROWS, SERVED
 from reference.problems.pendulum.taylor import TaylorMotion
-from reference.routes import quadrature
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -48,13 +47,8 @@ BY_QUADRATURE: dict[str, type[Motion]] = {
     "libration": QuadratureLibration,
     "rotation": QuadratureRotation,
 }
-NOT_BY_TAYLOR = ("modulus", "complementary_modulus")
 TAYLOR_RADIANS = 4000
 """The Taylor route serves times up to sqrt(g/l) t = TAYLOR_RADIANS: beyond, its work would grow without bound."""
-TAYLOR_BITS = 1024
-"""The Taylor route serves starts that need at most this working precision."""
-ROUTE_BITS = 8192
-"""No route but the enclosure serves what needs more working precision than this."""
 PI = Fraction(math.pi)
 
 
@@ -223,20 +217,15 @@ class Pendulum(SeparableProblem):
             exponents = [int(man).bit_length() + int(exp) for man, exp in (ball.mid().man_exp() for ball in squares)]
         return max(0, -min(exponents) // 2)
 
-    def by_route(
-        self, route: str, row: str, arguments: Sequence[Any], digits: int
-    ) -> list[tuple[Fraction, ...]] | None:
-        bits = int(digits * 3.33) + 2 * self.working_bits(arguments) + 30
-        if bits > ROUTE_BITS:
-            return None
-        if route == "quadrature":
-            return quadrature.rows(lambda: self._closed_form(BY_QUADRATURE, MPMATH), row, arguments, bits)
-        if row in NOT_BY_TAYLOR or bits > TAYLOR_BITS or not self._within_taylor(row, arguments):
-            return None
-        with mp.workprec(bits):
-            return TaylorMotion(self, bits).rows(row, arguments)
+    def quadrature_form(self) -> Motion:
+        """The same with the periods from their integrals, in mpmath."""
+        return self._closed_form(BY_QUADRATURE, MPMATH)
 
-    def _within_taylor(self, row: str, arguments: Sequence[Any]) -> bool:
+    def taylor_form(self, bits: int) -> TaylorMotion:
+        """The flow of the equation of motion."""
+        return TaylorMotion(self, bits)
+
+    def within_taylor(self, row: str, arguments: Sequence[Any]) -> bool:
         """Whether every argument lies in 0 <= sqrt(g/l) t <= TAYLOR_RADIANS, the last event included."""
         if self.row(row).over == "index":
             arguments = [Fraction(float(self.period())) * (index + 1) for index in arguments]

@@ -23,6 +23,7 @@ GRADIENT = tuple(
         strict=True,
     )
 )
+FORMULA = (("taylor", "a formula of the inputs, which no motion gives"),)
 ROWS = (
     Row("state", (THETA, OMEGA), "time"),
     Row(
@@ -44,11 +45,12 @@ ROWS = (
         (Quantity("energy", "s-2", "energy per m l^2", "E = omega^2/2 - (g/l) cos(theta) = -(g/l) cos(theta0)"),),
         "once",
     ),
-    Row("modulus", (Quantity("modulus", "1", "elliptic modulus", "k = sin(theta0/2)"),), "once"),
+    Row("modulus", (Quantity("modulus", "1", "elliptic modulus", "k = sin(theta0/2)"),), "once", FORMULA),
     Row(
         "complementary_modulus",
         (Quantity("complementary_modulus", "1", "complementary elliptic modulus", "kc = cos(theta0/2)"),),
         "once",
+        FORMULA,
     ),
     Row(
         "dperiod_damplitude",

@@ -1,0 +1,118 @@
+"""Integrals and zeros for closed forms: rigorous in balls, by mpmath's own rules in its numbers.
+
+The function is written once, ``function(m, x)`` in any arithmetic: the balls read it over complex numbers for an
+integral, and with its slope for a zero.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from flint import acb, arb, ctx
+from mpmath import mp
+
+from reference.dual import DualArithmetic
+from reference.routes import quadrature
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+__all__ = ["ball_integral", "ball_root", "mpmath_integral", "mpmath_root"]
+
+WIDENINGS = 12
+"""How often the neighbourhood of a zero is widened before this precision is given up."""
+
+
+def ball_integral(arithmetic: Callable[[bool], Any], function: Callable[[Any, Any], Any], low: Any, high: Any) -> arb:
+    """A ball around the integral of a real function that is analytic on [low, high] (``acb.integral``).
+
+    ``arithmetic(analytic)`` gives the complex balls; where ``analytic`` is set a branch cut gives no number.  The
+    interval is mapped to [0, 1], so that end points that are balls cost nothing but their own radius.
+    """
+    width = high - low
+
+    def integrand(s: acb, analytic: bool) -> acb:
+        return acb(function(arithmetic(analytic), low + width * s))
+
+    return (acb.integral(integrand, 0, 1) * width).real
+
+
+def mpmath_integral(m: Any, function: Callable[[Any, Any], Any], low: Any, high: Any) -> Any:
+    """The same by mpmath's tanh-sinh rule.
+
+    Raises:
+        ArithmeticError: the rule's own error estimate does not reach the working precision less ten bits.
+    """
+    return quadrature.integral(lambda x: function(m, x), low, high)
+
+
+def ball_root(m: Any, function: Callable[[Any, Any], Any], low: Any, high: Any) -> arb:
+    """A ball around the one zero of a monotone function in [low, high]; not a number where it cannot be proven.
+
+    Newton's method, kept inside the bracket, finds a point x; then the interval Newton step x - f(x)/f'(X) over a
+    neighbourhood X of x that contains its own image contains a zero (R. E. Moore, Methods and Applications of Interval
+    Analysis, SIAM 1979, section 5.1), and monotony makes it the only one.
+    """
+    both = _with_slope(m, function)
+
+    def point(x: arb) -> tuple[arb, arb]:
+        value, slope = both(x)
+        return value.mid(), slope.mid()
+
+    x = _newton(point, arb(low).mid(), arb(high).mid(), ctx.prec, arb.mid)
+    radius = abs(x) * arb(2) ** (8 - ctx.prec)
+    value, _ = both(x)
+    for _ in range(WIDENINGS):
+        near = arb(x, radius.upper())
+        image = x - value / both(near)[1]
+        if image.is_finite() and near.contains(image):
+            return image
+        radius = 16 * radius
+    return arb.nan()
+
+
+def _with_slope(m: Any, function: Callable[[Any, Any], Any]) -> Callable[[Any], tuple[Any, Any]]:
+    slopes = DualArithmetic(m, 1)
+
+    def both(x: Any) -> tuple[Any, Any]:
+        found = function(slopes, slopes.variable(x, 0))
+        return found.value, found.slopes[0]
+
+    return both
+
+
+def _newton(both: Callable[[Any], tuple[Any, Any]], low: Any, high: Any, bits: int, point: Callable[[Any], Any]) -> Any:
+    """The zero to about ``bits`` bits, from a bracket in which the function changes sign once.
+
+    Newton's step where it stays inside the bracket, else the middle; ``point(x)`` is x without a radius.  No claim is
+    made that the zero was reached.
+    """
+    rising = both(high)[0] > both(low)[0]
+    x = point((low + high) / 2)
+    for _ in range(4 * bits):
+        value, slope = both(x)
+        if value == 0:
+            return x
+        low, high = (x, high) if (value < 0) == rising else (low, x)
+        moved = point(x - value / slope) if slope != 0 else low
+        if not low < moved < high:
+            moved = point((low + high) / 2)
+        if abs(moved - x) * 2 ** (bits - 4) <= abs(moved):
+            return moved
+        x = moved
+    return x
+
+
+def mpmath_root(m: Any, function: Callable[[Any, Any], Any], low: Any, high: Any) -> Any:
+    """The same zero in mpmath's numbers.
+
+    Raises:
+        ArithmeticError: the sign does not change within ten bits of the working precision around it.
+    """
+    bits = mp.prec
+    with mp.extraprec(20):
+        found = _newton(_with_slope(m, function), mp.mpf(low), mp.mpf(high), mp.prec, mp.mpf)
+        near = abs(found) * mp.mpf(2) ** (10 - bits)
+        if mp.sign(function(m, found - near)) == mp.sign(function(m, found + near)):
+            raise ArithmeticError(f"no zero was found between {mp.nstr(low, 5)} and {mp.nstr(high, 5)}.")
+    return +found
