@@ -36,7 +36,9 @@ def _parser() -> Parser:
     commands = parser.add_subparsers(dest="command", metavar="COMMAND", required=True, parser_class=Parser)
     build = commands.add_parser("build", help="prove the values of a profile and write them as a dataset")
     build.add_argument("--out", metavar="FILE", help="the file to write (default: the core dataset's place)")
-    build.add_argument("--profile", type=one_of("profile", tuple(PROFILES)), default="core", help="core or full")
+    numbers = build.add_mutually_exclusive_group()
+    numbers.add_argument("--profile", type=one_of("profile", tuple(PROFILES)), default="core", help="core or full")
+    numbers.add_argument("--config", metavar="FILE.toml", help="groups, parameters and numbers of your own")
     _add_workers(build)
     build.set_defaults(run=_build)
     verify = commands.add_parser("verify", help="check a dataset and prove its values again")
@@ -84,10 +86,9 @@ def _add_at(commands: argparse._SubParsersAction[Parser]) -> None:
                 f"--{asked.name}",
                 required=asked.default is None and not asked.optional,
                 default=asked.default,
-                metavar="NUMBER",
-                help=f"{asked.help}, in {asked.units}{default}",
+                metavar=asked.metavar,
+                help=f"{asked.help}, in {asked.units}{default}" if asked.units else f"{asked.help}{default}",
             )
-        parser.add_argument("--t", required=True, metavar="NUMBER", help="time, in s")
         parser.add_argument("--digits", default="50", metavar="N", help="significant digits (default: 50)")
         parser.add_argument("--exact", action="store_true", help="take decimals and fractions as written")
         parser.add_argument("--routes", action="store_true", help="hold the other routes against each value")
@@ -100,10 +101,13 @@ def _at(asked: argparse.Namespace) -> int:
 
     family = asked.known_as
     digits = at.digits_count(asked.digits)
-    names = [wanted.name for wanted in family.inputs if getattr(asked, wanted.name) is not None]
-    inputs = {name: at.number(name, getattr(asked, name), as_written=asked.exact) for name in (*names, "t")}
-    problem = family.problem(**{name: inputs[name] for name in names})
-    found = at.quantities(family, problem, inputs["t"])
+    given = {wanted: getattr(asked, wanted.name) for wanted in family.inputs}
+    inputs = {
+        wanted.name: wanted.read(wanted.name, text, as_written=asked.exact)
+        for wanted, text in given.items()
+        if text is not None
+    }
+    found = at.quantities(family, inputs)
     if asked.format == "json":
         print(at.as_json(found, digits, routes=asked.routes))
     else:
@@ -114,10 +118,12 @@ def _at(asked: argparse.Namespace) -> int:
 def _build(asked: argparse.Namespace) -> int:
     from reference.build import build
     from reference.catalogue import plan
+    from reference.grids import plan_from
 
-    out = _default_out(asked.profile) if asked.out is None else asked.out
+    wanted = plan(asked.profile) if asked.config is None else plan_from(asked.config)
+    out = _default_out(wanted.profile) if asked.out is None else asked.out
     with progress_bar("proving", quiet=asked.quiet) as progress:
-        fingerprint = build(plan(asked.profile), out, jobs=asked.jobs, executor=asked.executor, progress=progress)
+        fingerprint = build(wanted, out, jobs=asked.jobs, executor=asked.executor, progress=progress)
     if not asked.quiet:
         print(f"{out}: {Path(out).stat().st_size} bytes, fingerprint sha256:{fingerprint}")
     return 0
@@ -130,7 +136,7 @@ def _default_out(profile: str) -> Path:
     checkout = Path(__file__).resolve().parents[1]
     if profile == "core" and (checkout / "pyproject.toml").exists() and (checkout / "data").is_dir():
         return core_path()
-    return Path(f"horologium-{profile}.h5")
+    return Path(f"horologium-{profile.removesuffix('.toml')}.h5")
 
 
 def _verify(asked: argparse.Namespace) -> int:

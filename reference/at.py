@@ -5,64 +5,34 @@ from __future__ import annotations
 import json
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from reference.exact import as_number, exact, expansion
 from reference.names import short
 from reference.problems.pendulum import Pendulum
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Mapping
 
     from reference.certify import Certified
     from reference.problem import Problem
 
-__all__ = ["DIGITS_LIMIT", "FAMILIES", "Family", "Input", "as_json", "as_text", "digits_count", "number", "quantities"]
+__all__ = [
+    "DIGITS_LIMIT",
+    "FAMILIES",
+    "Family",
+    "Input",
+    "as_json",
+    "as_text",
+    "digits_count",
+    "number",
+    "pair",
+    "quantities",
+    "text",
+]
 
 DIGITS_LIMIT = 30_000
 """Digits that the bound on the working precision leaves room for."""
-
-
-@dataclass(frozen=True)
-class Input:
-    """A number that the command line asks for: its units, and its default as it would be typed.
-
-    What is ``optional`` is left to the problem where it is not given.
-    """
-
-    name: str
-    units: str
-    help: str
-    default: str | None = None
-    optional: bool = False
-
-
-@dataclass(frozen=True)
-class Family:
-    """A family of problems as the command line knows it: its inputs, and the rows it prints, at the time or once."""
-
-    name: str
-    help: str
-    problem: Callable[..., Problem]
-    inputs: tuple[Input, ...]
-    rows: tuple[str, ...]
-
-
-TIME = Input("t", "s", "time")
-FAMILIES = (
-    Family(
-        "pendulum",
-        "the mathematical pendulum, released from rest or set going",
-        Pendulum,
-        (
-            Input("theta0", "rad", "angle of the start; released from rest, 0 < theta0 < pi"),
-            Input("omega0", "rad s-1", "angular velocity of the start; without it, released from rest", optional=True),
-            Input("g", "m s-2", "acceleration of gravity", "9.81"),
-            Input("length", "m", "length", "1"),
-        ),
-        ("state", "period", "energy"),
-    ),
-)
 
 
 def number(name: str, text: str, *, as_written: bool) -> Fraction:
@@ -81,6 +51,78 @@ def number(name: str, text: str, *, as_written: bool) -> Fraction:
     return exact(value, name)
 
 
+def pair(name: str, text: str, *, as_written: bool) -> tuple[Fraction, Fraction]:
+    """Two numbers with a comma between them.
+
+    Raises:
+        ValueError: there are not two, or one spells no finite number.
+    """
+    parts = text.split(",")
+    if len(parts) != 2:
+        raise ValueError(f"{name} is '{short(text)}'; two numbers with a comma between them are accepted, such as 2,1.")
+    first, second = (number(name, part, as_written=as_written) for part in parts)
+    return first, second
+
+
+def text(name: str, text: str, *, as_written: bool) -> str:
+    """A name or a formula, as it is."""
+    del name, as_written
+    return text
+
+
+@dataclass(frozen=True)
+class Input:
+    """Something that the command line asks for: its units, and its default as it would be typed.
+
+    What is ``optional`` is left to the problem where it is not given.  ``read`` is how it is spelt; an input with
+    ``over`` is the argument of the rows over that.
+    """
+
+    name: str
+    units: str
+    help: str
+    default: str | None = None
+    optional: bool = False
+    read: Callable[..., Any] = number
+    over: str = ""
+
+    @property
+    def metavar(self) -> str:
+        """How its place is shown in the usage."""
+        return {number: "NUMBER", pair: "NUMBER,NUMBER", text: "TEXT"}[self.read]
+
+
+@dataclass(frozen=True)
+class Family:
+    """A family of problems as the command line knows it: its inputs, and the rows it prints.
+
+    A row that is asked once is always printed, another one where its argument is given.
+    """
+
+    name: str
+    help: str
+    problem: Callable[..., Problem]
+    inputs: tuple[Input, ...]
+    rows: tuple[str, ...]
+
+
+FAMILIES = (
+    Family(
+        "pendulum",
+        "the mathematical pendulum, released from rest or set going",
+        Pendulum,
+        (
+            Input("theta0", "rad", "angle of the start; released from rest, 0 < theta0 < pi"),
+            Input("omega0", "rad s-1", "angular velocity of the start; without it, released from rest", optional=True),
+            Input("g", "m s-2", "acceleration of gravity", "9.81"),
+            Input("length", "m", "length", "1"),
+            Input("t", "s", "time", over="time"),
+        ),
+        ("state", "period", "energy"),
+    ),
+)
+
+
 def digits_count(text: str) -> int:
     """The number of digits asked for.
 
@@ -93,13 +135,18 @@ def digits_count(text: str) -> int:
     return count
 
 
-def quantities(family: Family, problem: Problem, time: Fraction) -> list[Certified]:
-    """The family's quantities at a time in s, each a proven number."""
+def quantities(family: Family, inputs: Mapping[str, Any]) -> list[Certified]:
+    """The family's quantities at the given inputs, each a proven number."""
+    arguments = {asked.over: inputs[asked.name] for asked in family.inputs if asked.over and asked.name in inputs}
+    arguments["once"] = None
+    along = {asked.name for asked in family.inputs if asked.over}
+    problem = family.problem(**{name: value for name, value in inputs.items() if name not in along})
+    rows = {row.name: row for row in problem.rows}
     return [
-        problem.certified(name, time if problem.row(name).over == "time" else None, component)
+        problem.certified(name, arguments[rows[name].over], component)
         for name in family.rows
-        if problem.serves(name)
-        for component in range(len(problem.row(name).quantities))
+        if problem.serves(name) and rows[name].over in arguments
+        for component in range(len(rows[name].quantities))
     ]
 
 
@@ -111,11 +158,11 @@ def as_json(found: list[Certified], digits: int, *, routes: bool) -> str:
     return json.dumps(answer, indent=2)
 
 
-def as_text(family: Family, inputs: dict[str, Fraction], found: list[Certified], digits: int, *, routes: bool) -> str:
+def as_text(family: Family, inputs: Mapping[str, Any], found: list[Certified], digits: int, *, routes: bool) -> str:
     """The inputs as they were solved, then one line a quantity with its units."""
-    units = {asked.name: asked.units for asked in (*family.inputs, TIME)}
+    units = {asked.name: asked.units for asked in family.inputs}
     lines = [f"{family.name}: {family.help}", "inputs, exact:"]
-    lines += [f"  {name} = {_shown(value)} {units[name]}" for name, value in inputs.items()]
+    lines += [f"  {name} = {_shown(value)} {units[name]}".rstrip() for name, value in inputs.items()]
     lines.append(f"values, {digits} significant digits, every one proven:")
     for value in found:
         unit = "" if value.quantity.units == "1" else f" {value.quantity.units}"
@@ -130,9 +177,11 @@ def _agreed(value: Certified) -> dict[str, float]:
     return {route: digits for route, digits in value.routes.items() if route != "enclosure"}
 
 
-def _shown(value: Fraction) -> str:
+def _shown(value: Any) -> str:
     """A binary64 number as decimal repr, exact value and hex float; another number as it is written."""
-    simple = as_number(value)
+    if isinstance(value, tuple):
+        return ", ".join(_shown(part) for part in value)
+    simple = as_number(value) if isinstance(value, Fraction) else value
     if isinstance(simple, str):
         return simple
     whole = expansion(value)

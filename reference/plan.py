@@ -75,6 +75,8 @@ class Layout:
         rows: the rows stored.
         problem: called with the instance's inputs and the parameters by name; returns the problem.
         reference: where the closed form is published.
+        statement: the problem in one line: its equation and its start.
+        difficulty: how hard it is on an integrator, "lower", "average" or "higher", and why.
     """
 
     path: str
@@ -85,6 +87,8 @@ class Layout:
     rows: tuple[Row, ...]
     problem: Callable[..., Problem]
     reference: str
+    statement: str = ""
+    difficulty: str = ""
 
     @property
     def axes(self) -> tuple[Coordinate, ...]:

@@ -72,7 +72,7 @@ class Parser(argparse.ArgumentParser):
         if choice:
             kind = argument.removeprefix("argument ").lower()
             sentence = unknown(kind, choice[1].strip("'"), re.findall(r"[\w:-]+", choice[2]))
-        elif argument.startswith("argument ") and rest.startswith(("expected", "ignored")):
+        elif argument.startswith("argument ") and rest.startswith(("expected", "ignored", "not allowed")):
             sentence = message.removeprefix("argument ")
         raise ValueError(sentence if sentence.endswith(".") else f"{sentence}.")
 

@@ -1,6 +1,6 @@
 """What stands in the file: names, attributes and the schema that writer and reader share.
 
-Schema version 1: a root with the scale ``limb``, groups as their layouts say, and ``/provenance``.
+Schema version 2: a root with the scale ``limb``, groups as their layouts say, and ``/provenance``.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ __all__ = [
     "root_attributes",
 ]
 
-SCHEMA_VERSION = "1"
+SCHEMA_VERSION = "2"
 PROVENANCE = "provenance"
 LIMB = "limb"
 TAIL_LIMBS = 2
@@ -59,8 +59,9 @@ ROOT = {
 
 
 def root_attributes(version: str, profile: str) -> dict[str, str]:
-    """The root attributes of a file, except for its fingerprint."""
-    command = f"python -m reference build --profile {profile}"
+    """The root attributes of a file, except for its fingerprint; the profile may be a grid file's name."""
+    numbers = "config" if profile.endswith(".toml") else "profile"
+    command = f"python -m reference build --{numbers} {profile}"
     return {
         **ROOT,
         "version": version,
@@ -79,6 +80,8 @@ def group_attributes(layout: Layout, parameters: Mapping[str, float]) -> dict[st
     """The attributes of a group with these fixed parameters."""
     found: dict[str, str | float] = {
         "long_name": layout.long_name,
+        "statement": layout.statement,
+        "difficulty": layout.difficulty,
         "parameters": " ".join(parameter.name for parameter in layout.parameters),
     }
     for parameter in layout.parameters:

@@ -4,22 +4,22 @@ from __future__ import annotations
 
 import numpy as np
 
-from reference import catalogue
+from reference.groups import pendulum as groups
 from reference.plan import Group, Plan
 
 SMALL = Plan(
     "core",
     (
         Group(
-            catalogue.LIBRATION,
-            catalogue.EARTH,
+            groups.LIBRATION,
+            groups.EARTH,
             {"amplitude": [0.5, 2.0], "time": np.arange(5) / 4, "event": [0, 1]},
         ),
     ),
 )
 TINY = Plan(
     "core",
-    (Group(catalogue.LONG, catalogue.EARTH, {"amplitude": [0.5, 2.0, 3.0], "time": [0.0, 1.0, 2.0**20]}),),
+    (Group(groups.LONG, groups.EARTH, {"amplitude": [0.5, 2.0, 3.0], "time": [0.0, 1.0, 2.0**20]}),),
 )
 
 

@@ -18,6 +18,7 @@ from reference import catalogue
 from reference.blocks import spread
 from reference.build import build
 from reference.certify import Agreement
+from reference.groups import pendulum as groups
 from reference.plan import BLOCK_LENGTH, Group, Plan
 from reference.store import load
 from reference.store.files import note_checksum
@@ -52,7 +53,7 @@ def test_a_date_that_is_no_number_is_refused(monkeypatch):
 
 def test_a_long_row_is_cut_into_blocks_that_cover_it():
     times = np.arange(2 * BLOCK_LENGTH + 5) / 4
-    group = Group(catalogue.LONG, catalogue.EARTH, {"amplitude": [1.0], "time": times})
+    group = Group(groups.LONG, groups.EARTH, {"amplitude": [1.0], "time": times})
     blocks = list(group.blocks())
     assert [(block.start, len(block.arguments)) for block in blocks] == [
         (0, BLOCK_LENGTH),
@@ -154,11 +155,12 @@ def test_a_full_disk_leaves_the_old_file_and_nothing_else(tmp_path, limit):
     program = textwrap.dedent(f"""
         import resource, signal
         from reference import build as building, catalogue
+        from reference.groups import pendulum as groups
         from reference.plan import Group, Plan
         times = [0.0, 1.0, 2.0**20]
         signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
         resource.setrlimit(resource.RLIMIT_FSIZE, ({limit}, {limit}))
-        plan = Plan("core", (Group(catalogue.LONG, catalogue.EARTH, {{"amplitude": [0.5, 2.0, 3.0], "time": times}}),))
+        plan = Plan("core", (Group(groups.LONG, groups.EARTH, {{"amplitude": [0.5, 2.0, 3.0], "time": times}}),))
         try:
             building.build(plan, "x.h5")
         except OSError as error:
@@ -176,7 +178,7 @@ def test_a_full_disk_leaves_the_old_file_and_nothing_else(tmp_path, limit):
 def test_between_old_and_new_file_no_checksum_is_wrong(tmp_path, monkeypatch):
     """Killed after the file is in place and before its checksum is noted, the new file still loads."""
     out = tmp_path / "x.h5"
-    build(Plan("core", (Group(catalogue.LONG, catalogue.UNIT, TINY.groups[0].inputs),)), out)
+    build(Plan("core", (Group(groups.LONG, groups.UNIT, TINY.groups[0].inputs),)), out)
     noted = []
 
     def kill(target, digest):
@@ -202,6 +204,6 @@ def test_profiles_hold_the_same_groups_and_full_is_a_hundred_times_core():
 
 
 def test_dimensionless_inputs_fit_into_half_precision():
-    group = next(group for group in catalogue.plan().groups if group.layout is catalogue.DIMENSIONLESS)
+    group = next(group for group in catalogue.plan().groups if group.layout is groups.DIMENSIONLESS)
     for values in group.inputs.values():
         assert np.array_equal(values.astype(np.float16).astype(float), values)

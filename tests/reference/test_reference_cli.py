@@ -18,6 +18,7 @@ from reference import Pendulum, catalogue
 from reference.__main__ import main
 from reference.build import build
 from reference.cite import FORMATS as CITE_FORMATS
+from reference.groups import pendulum as groups
 from reference.plan import Group, Plan
 from reference.store import core_path
 from reference.terminal import run
@@ -30,7 +31,7 @@ AT = ["at", "pendulum", "--theta0", "1", "--t", "10"]
 def tiny(tmp_path_factory):
     path = tmp_path_factory.mktemp("cli") / "tiny.h5"
     inputs = {"amplitude": [0.5], "time": np.arange(3) / 4}
-    build(Plan("core", (Group(catalogue.DIMENSIONLESS, catalogue.UNIT, inputs),)), path)
+    build(Plan("core", (Group(groups.DIMENSIONLESS, groups.UNIT, inputs),)), path)
     return path
 
 
@@ -198,7 +199,7 @@ def test_verify_prints_a_line_a_variable(capsys, tiny):
 def test_a_failed_proof_is_exit_code_1(capsys, tiny, monkeypatch):
     import reference.verify
 
-    failed = [reference.verify.Proof("x", 1, 1, "differs")]
+    failed = [reference.verify.Proof("x", Pendulum.rows[0], 1, 1, "differs")]
     monkeypatch.setattr(reference.verify, "verify", lambda *_, **__: failed)
     assert called("verify", tiny) == 1
     assert capsys.readouterr().out == "FAILED  x: differs\n0 of 1 variables proven.\n"
@@ -238,9 +239,7 @@ def test_cite_gives_version_and_fingerprint(capsys, tiny):
 
 
 def test_build_writes_where_it_is_told(capsys, tmp_path, monkeypatch):
-    monkeypatch.setattr(
-        catalogue, "plan", lambda _profile: Plan("core", (Group(catalogue.LONG, catalogue.EARTH, GRID),))
-    )
+    monkeypatch.setattr(catalogue, "plan", lambda _profile: Plan("core", (Group(groups.LONG, groups.EARTH, GRID),)))
     out = tmp_path / "x.h5"
     assert called("build", "--out", out, "--jobs", 1) == 0
     assert f"fingerprint sha256:{reference.load(out).fingerprint}" in capsys.readouterr().out

@@ -10,9 +10,9 @@ from plans import TINY, leftovers
 
 import reference
 from reference import build as building
-from reference import catalogue
 from reference.blocks import Result, compute
 from reference.build import build
+from reference.groups import pendulum as groups
 from reference.partial import BusyError, partial
 from reference.plan import Group, Plan
 
@@ -57,7 +57,7 @@ def test_a_damaged_block_is_proven_again(tmp_path):
 
 
 def test_blocks_of_another_plan_are_not_used(tmp_path):
-    other = Plan("core", (Group(catalogue.LONG, catalogue.UNIT, TINY.groups[0].inputs),))
+    other = Plan("core", (Group(groups.LONG, groups.UNIT, TINY.groups[0].inputs),))
     assert other.identity("1") != TINY.identity("1") != TINY.identity("2")
     interrupted(tmp_path / "x.h5", other.identity("1"), other.blocks())
     with partial(tmp_path / "x.h5", TINY.identity("1")) as finished:

@@ -13,7 +13,7 @@ from h5py import h5d, h5z
 from plans import SMALL
 
 import reference
-from reference import catalogue
+from reference.groups import pendulum as groups
 from reference.plan import Coordinate, Group, Layout
 from reference.problems.pendulum import Pendulum
 from reference.store import DatasetError, core_path, load
@@ -43,7 +43,7 @@ def test_every_axis_has_one_dimension_scale_with_its_name(built):
     with h5py.File(built) as file:
         assert file["limb"].is_scale
         group = file["pendulum/libration"]
-        for array in arrays(catalogue.LIBRATION):
+        for array in arrays(groups.LIBRATION):
             dataset = group[array.name]
             assert bool(dataset.is_scale) == array.is_scale
             if not array.is_scale:

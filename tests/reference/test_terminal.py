@@ -101,12 +101,12 @@ def test_a_closed_output_is_one_sentence(words):
 def test_a_closed_output_is_no_error_where_there_is_nothing_to_say(tmp_path):
     import numpy as np
 
-    from reference import catalogue
     from reference.build import build
+    from reference.groups import pendulum as groups
     from reference.plan import Group, Plan
 
     inputs = {"amplitude": [0.5], "time": np.arange(2) / 4}
-    build(Plan("core", (Group(catalogue.DIMENSIONLESS, catalogue.UNIT, inputs),)), tmp_path / "x.h5")
+    build(Plan("core", (Group(groups.DIMENSIONLESS, groups.UNIT, inputs),)), tmp_path / "x.h5")
     done = shell(f"'{sys.executable}' -m reference verify '{tmp_path}/x.h5' --jobs 1 --quiet >&-")
     assert (done.returncode, done.stderr) == (0, "")
 

@@ -6,9 +6,9 @@ import h5py
 import numpy as np
 import pytest
 
-from reference import catalogue
 from reference.build import build
 from reference.certify import DisagreementError
+from reference.groups import pendulum as groups
 from reference.plan import Group, Plan
 from reference.store import DatasetError
 from reference.store.content import fingerprint
@@ -17,7 +17,7 @@ from reference.verify import verify
 
 TINY = Plan(
     "core",
-    (Group(catalogue.DIMENSIONLESS, catalogue.UNIT, {"amplitude": [0.5, 2.0], "time": np.arange(3) / 4}),),
+    (Group(groups.DIMENSIONLESS, groups.UNIT, {"amplitude": [0.5, 2.0], "time": np.arange(3) / 4}),),
 )
 
 
