@@ -57,6 +57,7 @@ def _parser() -> Parser:
     cite.set_defaults(run=_cite)
     datasheet = commands.add_parser("datasheet", help="print the datasheet of a dataset, in Markdown")
     datasheet.add_argument("file", metavar="FILE", nargs="?", help="default: the core dataset")
+    datasheet.add_argument("group", metavar="GROUP", nargs="?", help="one group's page, such as pendulum/libration")
     datasheet.set_defaults(run=_datasheet)
     return parser
 
@@ -174,7 +175,7 @@ def _datasheet(asked: argparse.Namespace) -> int:
     from reference.datasheet import datasheet
     from reference.store import load
 
-    print(datasheet(load(asked.file)), end="")
+    print(datasheet(load(asked.file), asked.group), end="")
     return 0
 
 

@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
+import math
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
 from reference.certify import REQUIRED_DIGITS
 from reference.cite import cite
 from reference.exact import expansion
+from reference.names import unknown
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterator, Sequence
+    from typing import Any
 
     from reference.store import Dataset, Variable
 
@@ -41,7 +44,12 @@ A value x is stored as `x = value + tail[0] + tail[1]`: \
 each limb of `NAME_tail` is the correctly rounded rest.
 `value` alone is the correctly rounded double, with one limb it is a double-double, with both it has about 48 digits.
 
-## Contents
+## The groups
+
+"""
+LEVELS = """
+The level of difficulty is what a group asks of an integrator in double precision, in the words of NIST's reference \
+datasets: lower, average or higher.
 """
 CLOSING = """
 ## How it is certified
@@ -53,8 +61,8 @@ at rising precision until every point of the ball rounds to the same three limbs
 
 The last two must agree with the enclosure to {required} digits (at most 60 are compared), \
 relative to the largest value of the quantity along a trajectory, or nothing is written.
-The columns above give the least number of agreeing digits of each route and over how many elements it was compared; \
-in the file they are the attributes `taylor_digits`, `taylor_checked_elements`, \
+The tables above give the least number of agreeing digits of each route and over how many elements it was compared; \
+in the file these are the attributes `taylor_digits`, `taylor_checked_elements`, \
 `quadrature_digits` and `quadrature_checked_elements`.
 `python -m reference verify FILE` proves every limb again, from twice the working precision, and every decimal of \
 the attributes `decimal`; the routes are asked again for some of each row.
@@ -66,15 +74,15 @@ Any tool that reads HDF5 or netCDF-4 will do; with h5py:
 ```python
 import h5py
 with h5py.File("{name}") as file:
-    theta, tail = file["pendulum/libration/theta"][...], file["pendulum/libration/theta_tail"][...]
+    value, tail = file["{variable}"][...], file["{variable}_tail"][...]
 ```
 
 and with this package, which checks the file first:
 
 ```python
 import reference
-period = reference.load()["pendulum/libration/period"]
-print(period.value, period.tail, period.units)
+found = reference.load("{name}")["{variable}"]
+print(found.value, found.tail, found.units)
 ```
 
 ## How to trust it
@@ -85,7 +93,7 @@ The fingerprint is a SHA-256 over the content alone \
 since every number is the one correct rounding, every build on any machine gives the same.
 Versions of the tools, processor and, where SOURCE_DATE_EPOCH was set, the date stand in `/provenance`, outside it.
 
-## How to cite it
+## How to cite all of it
 
 ```bibtex
 {citation}
@@ -93,18 +101,32 @@ Versions of the tools, processor and, where SOURCE_DATE_EPOCH was set, the date 
 """
 
 
-def datasheet(dataset: Dataset) -> str:
-    """The datasheet in Markdown: why, contents, how certified, how to read, cite and trust it."""
+def datasheet(dataset: Dataset, group: str | None = None) -> str:
+    """The datasheet in Markdown: why, a page for each group, how certified, how to read, trust and cite it.
+
+    With ``group`` the page of that group alone.
+
+    Raises:
+        ValueError: there is no such group.
+    """
+    if group is not None:
+        name = group.strip("/")
+        if name not in dataset.groups:
+            raise ValueError(unknown("group", group, dataset.groups))
+        return "\n".join(_page(dataset, name)) + "\n"
     values = {
         **dataset.attrs,
         "name": dataset.path.name,
         "bytes": f"{dataset.path.stat().st_size:,}",
-        "elements": f"{sum(_count(variable) for variable in dataset.values() if not variable.is_input):,}",
+        "elements": f"{sum(math.prod(variable.shape) for variable in dataset.values() if not variable.is_input):,}",
         "example": _example(dataset),
         "required": REQUIRED_DIGITS,
         "citation": cite(dataset),
+        "variable": next(variable.name for variable in dataset.values() if not variable.is_input),
     }
-    return OPENING.format(**values) + "\n".join(_contents(dataset)) + "\n" + CLOSING.format(**values)
+    contents = [f"- `/{name}`: {dataset.groups[name]['long_name']}" for name in dataset.groups]
+    pages = [line for name in dataset.groups for line in ("", *_page(dataset, name))]
+    return OPENING.format(**values) + "\n".join([*contents, LEVELS, *pages]) + "\n" + CLOSING.format(**values)
 
 
 def _example(dataset: Dataset) -> str:
@@ -117,47 +139,84 @@ def _example(dataset: Dataset) -> str:
     return ""
 
 
-def _count(variable: Variable) -> int:
-    count = 1
-    for length in variable.shape:
-        count *= length
-    return count
+def _page(dataset: Dataset, group: str) -> Iterator[str]:
+    """One group: problem, level of difficulty, inputs, certified values, how certified, how to cite."""
+    attributes = dataset.groups[group]
+    members = [variable for variable in dataset.values() if variable.name.rpartition("/")[0] == group]
+    inputs = [variable for variable in members if variable.is_input]
+    values = [variable for variable in members if not variable.is_input]
+    level, _, why = attributes["difficulty"].partition(": ")
+    yield f"### `/{group}`: {attributes['long_name']}\n"
+    yield f"**Problem**: {attributes['statement']}.\n"
+    yield f"**Level of difficulty**: {level}" + (f" ({why}).\n" if why else ".\n")
+    yield "| input | units | what it is | numbers |\n|---|---|---|---|"
+    for name in attributes["parameters"].split():
+        units, meaning = attributes[f"{name}_units"], attributes[f"{name}_long_name"]
+        yield f"| `{name}` | {units} | {meaning} | {attributes[name]!r} |"
+    yield from (_input_line(variable) for variable in inputs)
+    yield "\n| certified variable | shape | units | definition | taylor | quadrature |\n|---|---|---|---|---|---|"
+    yield from (_variable_line(variable) for variable in values)
+    yield from _samples(inputs, values)
+    yield from _reasons(values)
+    sources = sorted({variable.attrs["reference"] for variable in values})
+    yield f"\n**Closed form**: {'; '.join(sources)}."
+    yield f"\n**To cite this group**: {cite(dataset, 'text')} Group `/{group}`."
 
 
-def _contents(dataset: Dataset) -> Iterator[str]:
-    for group, attributes in dataset.groups.items():
-        fixed = [
-            f"{name} = {attributes[name]!r} {attributes[f'{name}_units']}" for name in attributes["parameters"].split()
-        ]
-        yield f"\n### `/{group}`: {attributes['long_name']}\n"
-        yield f"Fixed: {', '.join(fixed)}.\n" if fixed else ""
-        members = [variable for variable in dataset.values() if variable.name.rpartition("/")[0] == group]
-        yield "| input | units | what it is | numbers |\n|---|---|---|---|"
-        yield from (_input_line(variable) for variable in members if variable.is_input)
-        yield "\n| variable | shape | units | definition | taylor | quadrature |\n|---|---|---|---|---|---|"
-        yield from (_variable_line(variable) for variable in members if not variable.is_input)
+def _input_line(variable: Variable) -> str:
+    value = variable.value
+    labels = str(variable.attrs.get("flag_meanings", ""))
+    numbers = labels.replace(" ", ", ") or f"{value.size}, from {value.min().item()!r} to {value.max().item()!r}"
+    return f"| `{_short(variable)}` | {variable.units} | {variable.attrs['long_name']} | {numbers} |"
+
+
+def _variable_line(variable: Variable) -> str:
+    shape = " × ".join(f"{dim} {length}" for dim, length in zip(variable.dims, variable.shape, strict=True)) or "one"
+    routes = " | ".join(_route(variable, route) for route in ("taylor", "quadrature"))
+    return f"| `{_short(variable)}` | {shape} | {variable.units} | {variable.definition} | {routes} |"
 
 
 def _short(variable: Variable) -> str:
     return variable.name.rpartition("/")[2]
 
 
-def _input_line(variable: Variable) -> str:
-    value = variable.value
-    numbers = f"{value.size}, from {value.min().item()!r} to {value.max().item()!r}"
-    return f"| `{_short(variable)}` | {variable.units} | {variable.attrs['long_name']} | {numbers} |"
-
-
-def _variable_line(variable: Variable) -> str:
-    shape = " × ".join(f"{dim} {length}" for dim, length in zip(variable.dims, variable.shape, strict=True))
-    routes = " | ".join(_route(variable, route) for route in ("taylor", "quadrature"))
-    return f"| `{_short(variable)}` | {shape} | {variable.units} | {variable.definition} | {routes} |"
-
-
 def _route(variable: Variable, route: str) -> str:
     if f"{route}_digits" not in variable.attrs:
-        return "not given by this route"
+        return "none"
     digits, checked = variable.attrs[f"{route}_digits"], variable.attrs[f"{route}_checked_elements"]
-    return (
-        f"{digits:.0f} digits, {checked} elements" if digits == int(digits) else f"{digits} digits, {checked} elements"
-    )
+    return f"{digits:g} digits, {checked} elements"
+
+
+def _samples(inputs: Sequence[Variable], values: Sequence[Variable]) -> Iterator[str]:
+    """The certified numbers that are asked once, of the first, the middle and the last instance."""
+    scalars = [variable for variable in values if "decimal" in variable.attrs]
+    if not scalars:
+        return
+    instances = math.prod(scalars[0].shape)
+    chosen = sorted({0, instances // 2, instances - 1})
+    axis = scalars[0].dims[0] if scalars[0].dims else ""
+    along = [variable for variable in inputs if axis and variable.dims == (axis,)]
+    titles = [f"`{_short(variable)}`" for variable in along] + ["certified variable", "value, every digit proven"]
+    yield "\n| " + " | ".join(titles) + " |\n" + "|---" * len(titles) + "|"
+    for place in chosen:
+        given = [_input_at(variable, place) for variable in along]
+        for variable in scalars:
+            digits = variable.attrs["decimal"].split()[place]
+            yield "| " + " | ".join([*given, f"`{_short(variable)}`", digits]) + " |"
+
+
+def _input_at(variable: Variable, place: int) -> str:
+    number: Any = variable.value[place].item()
+    labels = str(variable.attrs.get("flag_meanings", "")).split()
+    return labels[number] if labels else repr(number)
+
+
+def _reasons(values: Sequence[Variable]) -> Iterator[str]:
+    """Why a route does not give a variable."""
+    for route in ("taylor", "quadrature"):
+        missing: dict[str, list[str]] = {}
+        for variable in values:
+            if f"{route}_reason" in variable.attrs:
+                missing.setdefault(variable.attrs[f"{route}_reason"], []).append(f"`{_short(variable)}`")
+        for reason, names in missing.items():
+            yield f"\nNo {route} route for {', '.join(names)}: {reason}."

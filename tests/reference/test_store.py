@@ -267,6 +267,26 @@ def test_a_citation_is_dated_where_the_file_is_and_only_there(built, tmp_path, m
     assert cite(load(tmp_path / "dated.h5"), "text").startswith("The Horologium developers (1970). Horologium:")
 
 
+def test_the_datasheet_has_a_page_for_each_group(built):
+    from reference.datasheet import datasheet
+
+    dataset = reference.load(built)
+    whole = datasheet(dataset)
+    for group, attributes in dataset.groups.items():
+        page = datasheet(dataset, f"/{group}")
+        assert page in whole
+        assert f"**Problem**: {attributes['statement']}." in page
+        assert f"**Level of difficulty**: {attributes['difficulty'].partition(':')[0]}" in page
+        assert f"Fingerprint sha256:{dataset.fingerprint}. Group `/{group}`." in page
+        for variable in dataset.values():
+            if variable.name.startswith(group) and not variable.is_input:
+                assert f"| `{variable.name.rpartition('/')[2]}` | " in page
+    period = dataset["pendulum/libration/period"].attrs["decimal"].split()[0]
+    assert f"| `period` | {period} |" in datasheet(dataset, "pendulum/libration")
+    with pytest.raises(ValueError, match=r"^group 'pendulum/libation' is unknown, perhaps pendulum/libration"):
+        datasheet(dataset, "pendulum/libation")
+
+
 def test_the_datasheet_explains_a_number_of_the_file_itself(built):
     from reference.datasheet import datasheet
 
