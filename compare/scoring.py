@@ -11,7 +11,7 @@ import numpy as np
 
 from compare.methods import METHODS, find
 from compare.precision import precision as find_precision
-from compare.score import Course, fit_order, score_method
+from compare.scores import Course, fit_order, score_method
 from reference.exact import as_number, exact
 from reference.problem import Problem
 

@@ -8,7 +8,7 @@ import numpy as np
 
 from compare.march import INLINE_SINE, march
 from compare.records import Study, Trace
-from compare.score import SAMPLES, Course, relative_drift
+from compare.scores import SAMPLES, Course, relative_drift
 from compare.scoring import DEFAULT_N, score_all, some
 from reference import Pendulum, __version__
 from reference.certify import ROUTES

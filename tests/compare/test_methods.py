@@ -14,7 +14,7 @@ from compare.methods.explicit import RK4
 from compare.methods.symplectic import SUZUKI4, VERLET, YOSHIDA4, triple_jump
 from compare.order import order_of_splitting, order_of_tableau, trees
 from compare.precision import precision
-from compare.score import Course, fit_order, score_method
+from compare.scores import Course, fit_order, score_method
 from reference import Pendulum
 
 by_name = pytest.mark.parametrize("method", METHODS, ids=lambda method: method.name)

@@ -13,7 +13,7 @@ from mpmath import mp
 from compare.methods import find
 from compare.precision import precision
 from compare.records import Cell
-from compare.score import Course, fit_order, score_method, slope_with_interval, student_95
+from compare.scores import Course, fit_order, score_method, slope_with_interval, student_95
 from reference import Pendulum
 
 if TYPE_CHECKING:
