@@ -9,11 +9,11 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
-from flint import acb, arb, fmpq
 from mpmath import mp
 
-from reference.calculus import ball_integral, ball_root, mpmath_integral, mpmath_root
-from reference.elliptic import BallElliptic, MpmathElliptic
+from reference.balls import BALL, Ball, ComplexBall
+from reference.calculus import mpmath_integral, mpmath_root
+from reference.elliptic import MpmathElliptic
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -27,6 +27,7 @@ __all__ = [
     "Ball",
     "CalculusArithmetic",
     "ComplexBall",
+    "ElementaryArithmetic",
     "EllipticArithmetic",
     "Heyoka",
     "Mpmath",
@@ -43,14 +44,26 @@ class Arithmetic(Protocol):
     def sqrt(self, x: Any) -> Any: ...
 
 
-class EllipticArithmetic(Arithmetic, Protocol):
-    """What a closed form may ask for besides."""
+class ElementaryArithmetic(Arithmetic, Protocol):
+    """What a formula of the user's own may ask for besides."""
 
     def pi(self) -> Any: ...
+    def exp(self, x: Any) -> Any: ...
+    def log(self, x: Any) -> Any: ...
+    def tan(self, x: Any) -> Any: ...
+    def asin(self, x: Any) -> Any: ...
+    def acos(self, x: Any) -> Any: ...
     def atan(self, x: Any) -> Any: ...
-    def atan2(self, y: Any, x: Any) -> Any: ...
     def sinh(self, x: Any) -> Any: ...
     def cosh(self, x: Any) -> Any: ...
+    def tanh(self, x: Any) -> Any: ...
+    def power(self, x: Any, exponent: Fraction) -> Any: ...
+
+
+class EllipticArithmetic(ElementaryArithmetic, Protocol):
+    """What a closed form may ask for besides."""
+
+    def atan2(self, y: Any, x: Any) -> Any: ...
     def floor(self, x: Any) -> Any: ...
     def elliptic(self, k: Any, kc: Any) -> Any: ...
 
@@ -62,107 +75,19 @@ class CalculusArithmetic(EllipticArithmetic, Protocol):
     def root(self, function: Callable[[Any, Any], Any], low: Any, high: Any) -> Any: ...
 
 
-class Ball:
-    """Arb's real balls at the precision of ``flint.ctx``."""
-
-    elliptic = staticmethod(BallElliptic)
-
-    @staticmethod
-    def number(value: Fraction) -> arb:
-        return arb(fmpq(value.numerator, value.denominator))
-
-    @staticmethod
-    def sin(x: arb) -> arb:
-        return x.sin()
-
-    @staticmethod
-    def cos(x: arb) -> arb:
-        return x.cos()
-
-    @staticmethod
-    def pi() -> arb:
-        return arb.pi()
-
-    @staticmethod
-    def atan(x: arb) -> arb:
-        return x.atan()
-
-    @staticmethod
-    def atan2(y: arb, x: arb) -> arb:
-        return arb.atan2(y, x)
-
-    @staticmethod
-    def sinh(x: arb) -> arb:
-        return x.sinh()
-
-    @staticmethod
-    def cosh(x: arb) -> arb:
-        return x.cosh()
-
-    @staticmethod
-    def floor(x: arb) -> arb:
-        """The integer below every point of the ball; not a number where there is more than one."""
-        whole = x.floor().unique_fmpz()
-        return arb.nan() if whole is None else arb(whole)
-
-    @staticmethod
-    def sqrt(x: arb) -> arb:
-        return x.sqrt()
-
-    @staticmethod
-    def integral(function: Callable[[Any, Any], Any], low: Any, high: Any) -> arb:
-        """The integral of function(m, x), real and analytic on [low, high]."""
-        return ball_integral(ComplexBall, function, low, high)
-
-    def root(self, function: Callable[[Any, Any], Any], low: Any, high: Any) -> arb:
-        """The one zero of the monotone function(m, x) in [low, high], its ends exact or balls."""
-        return ball_root(self, function, low, high)
-
-
-class ComplexBall:
-    """Arb's complex balls, for the integrands of ``Ball.integral``.
-
-    Where ``analytic`` is set, a function that is not analytic on the whole of its argument gives no number.
-    """
-
-    def __init__(self, analytic: bool) -> None:
-        self.analytic = analytic
-
-    @staticmethod
-    def number(value: Fraction) -> acb:
-        return acb(fmpq(value.numerator, value.denominator))
-
-    @staticmethod
-    def sin(x: Any) -> acb:
-        return acb(x).sin()
-
-    @staticmethod
-    def cos(x: Any) -> acb:
-        return acb(x).cos()
-
-    @staticmethod
-    def sinh(x: Any) -> acb:
-        return acb(x).sinh()
-
-    @staticmethod
-    def cosh(x: Any) -> acb:
-        return acb(x).cosh()
-
-    @staticmethod
-    def pi() -> acb:
-        return acb.pi()
-
-    def sqrt(self, x: Any) -> acb:
-        return acb(x).sqrt(analytic=self.analytic)
-
-
 class Mpmath:
     """mpmath's numbers at its working precision."""
 
     elliptic = staticmethod(MpmathElliptic)
     sin = staticmethod(mp.sin)
     cos = staticmethod(mp.cos)
+    tan = staticmethod(mp.tan)
+    exp = staticmethod(mp.exp)
+    log = staticmethod(mp.log)
+    asin = staticmethod(mp.asin)
+    acos = staticmethod(mp.acos)
     atan = staticmethod(mp.atan)
+    tanh = staticmethod(mp.tanh)
     atan2 = staticmethod(mp.atan2)
     sinh = staticmethod(mp.sinh)
     cosh = staticmethod(mp.cosh)
@@ -172,6 +97,10 @@ class Mpmath:
     @staticmethod
     def pi() -> Any:
         return +mp.pi
+
+    @staticmethod
+    def power(x: Any, exponent: Fraction) -> Any:
+        return mp.power(x, mp.mpf(exponent.numerator) / exponent.denominator)
 
     def integral(self, function: Callable[[Any, Any], Any], low: Any, high: Any) -> Any:
         """The integral of function(m, x), analytic on [low, high]."""
@@ -191,7 +120,24 @@ class Numpy:
 
     sin = staticmethod(np.sin)
     cos = staticmethod(np.cos)
+    tan = staticmethod(np.tan)
+    asin = staticmethod(np.arcsin)
+    acos = staticmethod(np.arccos)
+    atan = staticmethod(np.arctan)
+    sinh = staticmethod(np.sinh)
+    cosh = staticmethod(np.cosh)
+    tanh = staticmethod(np.tanh)
+    exp = staticmethod(np.exp)
+    log = staticmethod(np.log)
     sqrt = staticmethod(np.sqrt)
+
+    @staticmethod
+    def pi() -> float:
+        return float(np.pi)
+
+    @staticmethod
+    def power(x: Any, exponent: Fraction) -> Any:
+        return x ** float(exponent)
 
     @staticmethod
     def number(value: Fraction) -> float:
@@ -216,10 +162,42 @@ class Heyoka:
     def cos(self, x: Any) -> Any:
         return self._hy.cos(x)
 
+    def tan(self, x: Any) -> Any:
+        return self._hy.tan(x)
+
+    def asin(self, x: Any) -> Any:
+        return self._hy.asin(x)
+
+    def acos(self, x: Any) -> Any:
+        return self._hy.acos(x)
+
+    def atan(self, x: Any) -> Any:
+        return self._hy.atan(x)
+
+    def sinh(self, x: Any) -> Any:
+        return self._hy.sinh(x)
+
+    def cosh(self, x: Any) -> Any:
+        return self._hy.cosh(x)
+
+    def tanh(self, x: Any) -> Any:
+        return self._hy.tanh(x)
+
+    def exp(self, x: Any) -> Any:
+        return self._hy.exp(x)
+
+    def log(self, x: Any) -> Any:
+        return self._hy.log(x)
+
     def sqrt(self, x: Any) -> Any:
         return self._hy.sqrt(x)
 
+    def pi(self) -> Any:
+        return self._hy.pi
 
-BALL = Ball()
+    def power(self, x: Any, exponent: Fraction) -> Any:
+        return x ** self._number(exponent)
+
+
 MPMATH = Mpmath()
 NUMPY = Numpy()

@@ -20,6 +20,9 @@ __all__ = ["Dual", "DualArithmetic"]
 class Dual:
     """value + sum slopes[i] e_i, to first order."""
 
+    __array_ufunc__ = None
+    """NumPy's arrays leave arithmetic with duals to the duals."""
+
     def __init__(self, value: Any, slopes: tuple[Any, ...]) -> None:
         self.value, self.slopes = value, slopes
 
@@ -102,29 +105,54 @@ class DualArithmetic:
     def pi(self) -> Any:
         return self.m.pi()
 
-    def sin(self, x: Dual) -> Dual:
-        cosine = self.m.cos(x.value)
-        return x.along(self.m.sin(x.value), lambda slope: cosine * slope)
+    def _of(self, x: Any, function: Callable[[Any], Any], rate: Callable[[Any, Any], Any]) -> Any:
+        """A function of a dual, with rate(x, function(x)) its derivative; of a constant, a constant."""
+        if not isinstance(x, Dual):
+            return function(x)
+        value = function(x.value)
+        factor = rate(x.value, value)
+        return x.along(value, lambda slope: factor * slope)
 
-    def cos(self, x: Dual) -> Dual:
-        sine = self.m.sin(x.value)
-        return x.along(self.m.cos(x.value), lambda slope: -sine * slope)
+    def sin(self, x: Any) -> Any:
+        return self._of(x, self.m.sin, lambda a, _: self.m.cos(a))
 
-    def sinh(self, x: Dual) -> Dual:
-        cosh = self.m.cosh(x.value)
-        return x.along(self.m.sinh(x.value), lambda slope: cosh * slope)
+    def cos(self, x: Any) -> Any:
+        return self._of(x, self.m.cos, lambda a, _: -self.m.sin(a))
 
-    def cosh(self, x: Dual) -> Dual:
-        sinh = self.m.sinh(x.value)
-        return x.along(self.m.cosh(x.value), lambda slope: sinh * slope)
+    def tan(self, x: Any) -> Any:
+        return self._of(x, self.m.tan, lambda _, tangent: 1 + tangent * tangent)
 
-    def sqrt(self, x: Dual) -> Dual:
-        root = self.m.sqrt(x.value)
-        return x.along(root, lambda slope: slope / (2 * root))
+    def asin(self, x: Any) -> Any:
+        return self._of(x, self.m.asin, lambda a, _: 1 / self.m.sqrt(1 - a * a))
 
-    def atan(self, x: Dual) -> Dual:
-        scale = 1 + x.value * x.value
-        return x.along(self.m.atan(x.value), lambda slope: slope / scale)
+    def acos(self, x: Any) -> Any:
+        return self._of(x, self.m.acos, lambda a, _: -1 / self.m.sqrt(1 - a * a))
+
+    def atan(self, x: Any) -> Any:
+        return self._of(x, self.m.atan, lambda a, _: 1 / (1 + a * a))
+
+    def sinh(self, x: Any) -> Any:
+        return self._of(x, self.m.sinh, lambda a, _: self.m.cosh(a))
+
+    def cosh(self, x: Any) -> Any:
+        return self._of(x, self.m.cosh, lambda a, _: self.m.sinh(a))
+
+    def tanh(self, x: Any) -> Any:
+        return self._of(x, self.m.tanh, lambda _, tangent: 1 - tangent * tangent)
+
+    def exp(self, x: Any) -> Any:
+        return self._of(x, self.m.exp, lambda _, value: value)
+
+    def log(self, x: Any) -> Any:
+        return self._of(x, self.m.log, lambda a, _: 1 / a)
+
+    def sqrt(self, x: Any) -> Any:
+        return self._of(x, self.m.sqrt, lambda _, root: 1 / (2 * root))
+
+    def power(self, x: Any, exponent: Fraction) -> Any:
+        """x to a rational power."""
+        factor = self.m.number(exponent)
+        return self._of(x, lambda a: self.m.power(a, exponent), lambda a, _: factor * self.m.power(a, exponent - 1))
 
     def atan2(self, y: Dual, x: Dual) -> Dual:
         norm = y.value * y.value + x.value * x.value
