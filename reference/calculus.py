@@ -56,12 +56,13 @@ def ball_root(m: Any, function: Callable[[Any, Any], Any], low: Any, high: Any) 
     both = _with_slope(m, function)
 
     def point(x: arb) -> tuple[arb, arb]:
+        """A value that cannot be told from zero is as near to it as this precision comes."""
         value, slope = both(x)
-        return value.mid(), slope.mid()
+        return arb(0) if value.contains(0) else value.mid(), slope.mid()
 
     x = _newton(point, arb(low).mid(), arb(high).mid(), ctx.prec, arb.mid)
-    radius = abs(x) * arb(2) ** (8 - ctx.prec)
-    value, _ = both(x)
+    value, slope = both(x)
+    radius = 2 * abs(value / slope) + abs(x) * arb(2) ** (8 - ctx.prec)
     for _ in range(WIDENINGS):
         near = arb(x, radius.upper())
         image = x - value / both(near)[1]

@@ -56,6 +56,22 @@ def test_a_zero_holds_all_zeros_that_the_parameters_allow():
             assert found.contains(end.sqrt())
 
 
+def test_a_zero_is_proven_where_most_bits_of_its_function_cancel():
+    """(1 + x^2) acot x - x is about 2/(3 x): near 10^9 it keeps 90 bits fewer than its terms have."""
+    ratio = Fraction(2, 3 * 10**9)
+
+    def difference(m, x):
+        return (1 + x * x) * (m.pi() / 2 - m.atan(x)) - x - m.number(ratio)
+
+    with ctx.workprec(BITS):
+        found = BALL.root(difference, arb(0), arb(10) ** 10)
+        assert BITS - 110 < found.rel_accuracy_bits() < BITS - 60
+    with ctx.workprec(2 * BITS):
+        assert found.contains(BALL.root(difference, arb(0), arb(10) ** 10))
+    with ctx.workprec(64):
+        assert not BALL.root(difference, arb(0), arb(10) ** 10).is_finite()
+
+
 def test_where_no_zero_is_there_none_is_given():
     with ctx.workprec(BITS):
         assert not BALL.root(lambda _, x: x * x * x + 1, arb(1), arb(2)).is_finite()
