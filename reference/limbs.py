@@ -24,6 +24,7 @@ __all__ = [
     "fixed",
     "interval",
     "limbs",
+    "of_ball",
     "rounded",
     "to_fixed",
     "to_limbs",
@@ -32,6 +33,8 @@ __all__ = [
 
 BINARY64_BITS = 53
 BINARY64_MIN_EXPONENT = -1074
+HALVES = 2.0**BINARY64_BITS
+"""Halves of the last bit in a power of two."""
 MAX_BITS = 1 << 17
 """Working precision at which a proof is given up, with an error."""
 
@@ -114,6 +117,29 @@ def limbs(bounds: Interval | None, count: int) -> tuple[float, ...] | None:
     return tuple(found)
 
 
+def of_ball(ball: arb, count: int) -> Limbs | None:
+    """Return the ``count`` limbs shared by every point of the ball, or None where they differ.
+
+    A double v is what every point rounds to where ball - v lies strictly within half of v's last bit, which the next
+    limb shows: it is the nearest double to the remainder's midpoint, and half a last bit is itself a double.  Powers of
+    two, whose lower neighbour is nearer, numbers below the normal range and what is not decided at once are left to
+    the exact end points.
+
+    Raises:
+        OverflowError: every point of the ball is beyond the range of binary64.
+    """
+    found: list[float] = []
+    rest, bound = ball, math.inf
+    for _ in range(count):
+        value = float(rest)
+        size, half = abs(value), math.ulp(value) / 2
+        if not size < bound or size == half * HALVES:
+            return limbs(interval(ball), count)
+        found.append(value)
+        rest, bound = rest - value, half
+    return tuple(found) if float(rest.abs_upper()) < bound else limbs(interval(ball), count)
+
+
 def exact_limbs(value: Fraction, count: int) -> tuple[float, ...]:
     """Return the limbs of an exact rational.
 
@@ -132,7 +158,7 @@ def exact_limbs(value: Fraction, count: int) -> tuple[float, ...]:
 
 def to_limbs(count: int) -> tuple[Callable[[arb], Limbs | None], Callable[[Fraction], Limbs]]:
     """How a ball and how an exact rational give their ``count`` limbs: the two questions of a proof."""
-    return lambda ball: limbs(interval(ball), count), lambda value: exact_limbs(value, count)
+    return lambda ball: of_ball(ball, count), lambda value: exact_limbs(value, count)
 
 
 def decimal(bounds: Interval | None, digits: int) -> str | None:
@@ -157,7 +183,7 @@ def exact_decimal(value: Fraction, digits: int) -> str:
     if not quotient:
         return "0"
     missing = digits - len(quotient.as_tuple().digits)
-    padded = quotient if missing <= 0 else quotient.quantize(quotient.scaleb(-missing), context=context)
+    padded = quotient if missing <= 0 else quotient.quantize(quotient.scaleb(-missing, context), context=context)
     return f"{padded:f}" if -7 < padded.adjusted() < digits else f"{padded:e}"
 
 

@@ -11,7 +11,7 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 from independent import correct_limbs, nearest_double
 
-from reference.limbs import WorkBoundError, decimal, exact_decimal, exact_limbs, interval, limbs, rounded, ziv
+from reference.limbs import WorkBoundError, decimal, exact_decimal, exact_limbs, interval, limbs, of_ball, rounded, ziv
 
 MANTISSAS = st.integers(-(2**200), 2**200)
 EXPONENTS = st.integers(-1300, 700)
@@ -124,6 +124,8 @@ def test_a_decimal_is_the_nearest_of_its_length_and_even_in_a_tie(x, digits):
         ("1e-30", 3, "1.00e-30"),
         ("123456", 3, "1.23e+5"),
         ("1/7", 20, "0.14285714285714285714"),
+        ("183087349942942649625824178151", 31, "183087349942942649625824178151.0"),
+        ("0.1000000000000000000000000000000000000003", 41, "0.10000000000000000000000000000000000000030"),
     ],
 )
 def test_decimals_read_as_people_write_them(x, digits, text):
@@ -147,9 +149,43 @@ def test_the_interval_of_a_ball_contains_the_ball(mid, radius, exponent):
     assert value_of(high - low, power) <= value_of(2 * radius, exponent) * Fraction(1 + 2**20, 2**20)
 
 
+@given(MANTISSAS, st.integers(0, 2**60), EXPONENTS, st.integers(1, 4))
+def test_a_ball_has_the_limbs_of_its_interval(mid, radius, exponent, count):
+    with ctx.workprec(400):
+        ball = arb(mid, radius) * arb(2) ** exponent
+        expected = limbs(interval(ball), count)
+        assert of_ball(ball, count) == expected
+    with ctx.workprec(53):
+        assert of_ball(ball, count) in (expected, None)
+
+
+@given(
+    st.integers(2**53, 2**54),
+    st.integers(-1150, -900) | st.integers(-60, 60) | st.just(970),
+    st.sampled_from([-1, 1]),
+    st.sampled_from([0, 1, -1]),
+    st.sampled_from([0, 1]),
+)
+def test_a_ball_beside_a_boundary_has_the_limbs_of_its_interval(mantissa, exponent, sign, beside, radius):
+    """Halves of a last bit, powers of two and subnormal numbers, each with its neighbours at a distance of 2^-70."""
+    for whole in (mantissa, 2**53, 2**54 - 1):
+        with ctx.workprec(400):
+            ball = arb(sign * (whole * 2**70 + beside), radius) * arb(2) ** (exponent - 70)
+            for count in (1, 2, 3):
+                assert outcome(of_ball, ball, count) == outcome(lambda x, n: limbs(interval(x), n), ball, count)
+
+
+def outcome(question, ball, count):
+    try:
+        return question(ball, count)
+    except OverflowError as error:
+        return str(error)
+
+
 def test_what_is_not_finite_has_no_interval_and_is_undecided():
     for ball in (arb("nan"), arb("inf"), arb(0, "inf")):
         assert interval(ball) is None
+        assert of_ball(ball, 2) is None
     assert limbs(None, 1) is None
     assert decimal(None, 5) is None
 
