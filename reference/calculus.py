@@ -17,7 +17,7 @@ from reference.routes import quadrature
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-__all__ = ["ball_integral", "ball_root", "mpmath_integral", "mpmath_root"]
+__all__ = ["ball_integral", "ball_root", "enclosed_zero", "mpmath_integral", "mpmath_root"]
 
 WIDENINGS = 12
 """How often the neighbourhood of a zero is widened before this precision is given up."""
@@ -49,9 +49,7 @@ def mpmath_integral(m: Any, function: Callable[[Any, Any], Any], low: Any, high:
 def ball_root(m: Any, function: Callable[[Any, Any], Any], low: Any, high: Any) -> arb:
     """A ball around the one zero of a monotone function in [low, high]; not a number where it cannot be proven.
 
-    Newton's method, kept inside the bracket, finds a point x; then the interval Newton step x - f(x)/f'(X) over a
-    neighbourhood X of x that contains its own image contains a zero (R. E. Moore, Methods and Applications of Interval
-    Analysis, SIAM 1979, section 5.1), and monotony makes it the only one.
+    Newton's method, kept inside the bracket, finds a point; the interval Newton step about it proves the zero.
     """
     both = _with_slope(m, function)
 
@@ -62,10 +60,20 @@ def ball_root(m: Any, function: Callable[[Any, Any], Any], low: Any, high: Any) 
 
     x = _newton(point, arb(low).mid(), arb(high).mid(), ctx.prec, arb.mid)
     value, slope = both(x)
+    return enclosed_zero(x, value, slope, lambda near: both(near)[1])
+
+
+def enclosed_zero(x: arb, value: arb, slope: arb, slope_over: Callable[[arb], arb]) -> arb:
+    """A ball around the one zero of a monotone function near the point x; not a number where it cannot be proven.
+
+    The interval Newton step x - f(x)/f'(X) over a neighbourhood X of x that contains its own image contains a zero
+    (R. E. Moore, Methods and Applications of Interval Analysis, SIAM 1979, section 5.1), and monotony makes it the only
+    one.  ``value`` and ``slope`` are f and f' at x, ``slope_over(X)`` encloses f' over X.
+    """
     radius = 2 * abs(value / slope) + abs(x) * arb(2) ** (8 - ctx.prec)
     for _ in range(WIDENINGS):
         near = arb(x, radius.upper())
-        image = x - value / both(near)[1]
+        image = x - value / slope_over(near)
         if image.is_finite() and near.contains(image):
             return image
         radius = 16 * radius
