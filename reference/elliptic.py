@@ -6,12 +6,13 @@ cannot be had from the other without loss.
 
 from __future__ import annotations
 
+import math
 from typing import Any, Protocol
 
-from flint import acb, arb
+from flint import acb, arb, arb_poly, arb_series, ctx
 from mpmath import mp
 
-__all__ = ["BallElliptic", "Elliptic", "MpmathElliptic"]
+__all__ = ["BallElliptic", "Elliptic", "MpmathElliptic", "sine_polynomial"]
 
 
 class Elliptic(Protocol):
@@ -61,6 +62,27 @@ class BallElliptic:
         t4 = z.modular_theta(self._tau)[3].real
         slope = z.modular_theta(self._tau, 1)[3].real
         return self.second() / self.first * u + slope / t4 / period
+
+
+def sine_polynomial(k: arb, width: arb, bits: int) -> arb_poly:
+    """P with sn(width x) = x P(x^2) for -1 <= x <= 1, width < 1, to about ``bits`` bits; every error is in its balls.
+
+    sn inverts the elliptic integral of the first kind.  The coefficients of sn, cn and dn are at most those of tan, sec
+    and sec, which obey the same equations with k = 1 and without the signs: for |v| <= r < pi/2, |sn v| <= tan r, and
+    Cauchy's estimate bounds the rest of the series.
+    """
+    radius = arb(1.5)
+    ratio = width / radius
+    terms = 2 * math.ceil((bits + 6) / -math.log2(float(ratio)) / 2) + 1
+    before, ctx.cap = ctx.cap, terms
+    try:
+        x, m = arb_series([0, 1]), k * k
+        sine = ((1 - x * x) * (1 - m * x * x)).rsqrt().integral().reversion()
+        odd = sine(arb_series([0, width])).coeffs()[1::2]
+    finally:
+        ctx.cap = before
+    odd[0] += arb(0, 1) * radius.tan() * ratio**terms / (1 - ratio)
+    return arb_poly(odd)
 
 
 class MpmathElliptic:

@@ -95,6 +95,8 @@ def exact_array(values: Any, name: str = "value") -> tuple[list[Fraction], tuple
     if array.size == 0:
         raise ValueError(f"{name} is empty; at least one number is accepted.")
     elements = array.ravel().tolist()
+    if array.dtype.kind == "f" and array.itemsize <= 8 and np.isfinite(array).all():
+        return [Fraction(value) for value in elements], array.shape
     if any(isinstance(value, (list, tuple, np.ndarray)) for value in elements):
         raise ValueError(f"{name} is ragged; {ROWS_ACCEPTED}.")
     return [exact(value, name) for value in elements], array.shape

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from fractions import Fraction
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from flint import arb, ctx
@@ -12,12 +11,15 @@ from reference.limbs import ziv
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
+    from fractions import Fraction
 
-    from reference.problem import Problem
+    from reference.problem import Problem, Solution
 
 __all__ = ["balls", "decide"]
 
 GUARD_BITS = 40
+CHART_BITS = 20
+"""The same for a chart: one value in a million may stay undecided."""
 Answer = TypeVar("Answer")
 
 
@@ -28,27 +30,43 @@ def decide(
     of_ball: Callable[[arb], Answer | None],
     of_exact: Callable[[Fraction], Answer],
     bits: int,
+    *,
+    charted: bool = False,
 ) -> list[list[Answer]]:
     """Return for each argument the answers of the row's quantities: ``of_exact`` where rational, else ``of_ball``.
+
+    Where it is ``charted``, the problem's chart is asked first, if it has one for so many arguments; it is proven too,
+    so that only the time depends on it.
 
     Raises:
         WorkBoundError: a ball is undecided at the bound on the working precision.
     """
     rational = [problem.exact_row(row, argument) for argument in arguments]
-    open_rows = [i for i, known in enumerate(rational) if known is None or None in known]
-
-    def enclose(rows: Sequence[int]) -> Sequence[Sequence[Any]]:
-        indices = [open_rows[i] for i in rows]
-        balls = problem.closed_form(BALL).rows(row, [arguments[i] for i in indices])
-        return [_known(rational[i], found) for i, found in zip(indices, balls, strict=True)]
+    pending = [i for i, known in enumerate(rational) if known is None or None in known]
+    start = bits + GUARD_BITS + problem.working_bits([arguments[i] for i in pending])
 
     def answer(value: Any) -> Answer | None:
-        return of_exact(value) if isinstance(value, Fraction) else of_ball(value)
+        return of_ball(value) if isinstance(value, arb) else of_exact(value)
 
-    start = bits + GUARD_BITS + problem.working_bits([arguments[i] for i in open_rows])
+    def by(form: Solution, indices: Sequence[int]) -> list[Sequence[Any]]:
+        found = form.rows(row, [arguments[i] for i in indices])
+        return [_known(rational[i], balls) for i, balls in zip(indices, found, strict=True)]
+
+    def enclose(rows: Sequence[int]) -> Sequence[Sequence[Any]]:
+        return by(problem.closed_form(BALL), [rest[i] for i in rows])
+
+    answers: dict[int, list[Any]] = {}
+    with ctx.workprec(start):
+        bounded = charted and start <= problem.max_bits
+        chart = problem.chart(row, len(pending), bits + CHART_BITS) if bounded else None
+        for i, values in zip(pending, by(chart, pending), strict=True) if chart else ():
+            found = [answer(value) for value in values]
+            if None not in found:
+                answers[i] = found
+    rest = [i for i in pending if i not in answers]
     what = f"{row} of {problem!r}"
-    decided = ziv(enclose, answer, len(open_rows), start, what, problem.max_bits) if open_rows else []
-    answers = dict(zip(open_rows, decided, strict=True))
+    proven = ziv(enclose, answer, len(rest), start, what, problem.max_bits) if rest else []
+    answers.update(zip(rest, proven, strict=True))
     return [
         answers[i] if known is None or i in answers else [of_exact(value) for value in known if value is not None]
         for i, known in enumerate(rational)

@@ -9,7 +9,7 @@ from flint import arb, ctx
 from independent import ball, fraction
 from mpmath import mp
 
-from reference.elliptic import BallElliptic, MpmathElliptic
+from reference.elliptic import BallElliptic, MpmathElliptic, sine_polynomial
 
 ANGLES = (1e-3, 0.5, math.pi / 2, 3.0, math.pi - 1e-6)
 """theta0 of the modulus k = sin(theta0/2)."""
@@ -100,3 +100,23 @@ def test_the_quarter_period_is_where_the_sine_is_one():
         assert cn.contains(0)
         assert dn.overlaps(arb("0.8"))
         assert max(x.rad() for x in (sn, cn, dn)) < 1e-60
+
+
+@pytest.mark.parametrize("angle", ANGLES)
+@pytest.mark.parametrize("width", ["0.001", "0.125", "0.9"])
+@pytest.mark.parametrize("bits", [20, 80, 200])
+def test_the_polynomial_of_the_sine_holds_it_within_its_width(angle, width, bits):
+    with ctx.workprec(400):
+        k, kc = (ball(angle) / 2).sin(), (ball(angle) / 2).cos()
+        found = sine_polynomial(k, arb(width), bits)
+        assert found[0].rad() < arb(width) * arb(2) ** -bits
+        for x in (arb(1), arb(-1), arb("0.9"), arb("-0.3")):
+            truth = BallElliptic(k, kc).functions(x * arb(width))[0]
+            assert (x * found(x * x)).overlaps(truth)
+
+
+def test_the_polynomial_of_the_sine_without_its_rest_misses_it():
+    with ctx.workprec(400):
+        found = sine_polynomial(arb(0.6), arb(0.5), 60)
+        bare = sum(found[i].mid() for i in range(found.length()))
+        assert not arb(bare).overlaps(BallElliptic(arb(0.6), arb(0.64).sqrt()).functions(arb(0.5))[0])

@@ -24,9 +24,24 @@ from reference.routes import quadrature
 if TYPE_CHECKING:
     from reference.arithmetic import EllipticArithmetic
 
-__all__ = ["Libration", "Motion", "QuadratureLibration", "QuadratureRotation", "Rest", "Rotation", "Separatrix"]
+__all__ = [
+    "Libration",
+    "Motion",
+    "QuadratureLibration",
+    "QuadratureRotation",
+    "Rest",
+    "Rotation",
+    "Separatrix",
+    "addition",
+]
 
 HALF = Fraction(1, 2)
+
+
+def addition(s: Any, c: Any, p: Any, sn: Any, cn: Any, dn: Any) -> tuple[Any, Any, Any, Any]:
+    """The orbit u after the point (s, c, p): sin(theta/2), cos(theta/2) and theta'/(2 w) over one scale, and this."""
+    rise, speed, fall = s * sn, p * cn, c * dn
+    return p * c * sn + s * cn * dn, fall - rise * speed, speed - rise * fall, 1 - rise * rise
 
 
 class Motion(ClosedForm):
@@ -60,11 +75,9 @@ class Motion(ClosedForm):
 
     def state(self, t: Any) -> tuple[Any, Any]:
         """(theta, theta') at t."""
-        s, c, p = self.s, self.c, self.p
-        sn, cn, dn = self.functions(self.w * t)
-        half = self.m.atan((p * c * sn + s * cn * dn) / (c * dn - s * p * sn * cn))
-        rate = 2 * self.w * (p * cn - s * c * sn * dn) / (1 - (s * sn) ** 2)
-        return 2 * half + 2 * self.m.pi() * (self.turns + self.turns_at(t)), rate
+        sine, cosine, rate, scale = addition(self.s, self.c, self.p, *self.functions(self.w * t))
+        half = self.m.atan(sine / cosine)
+        return 2 * half + 2 * self.m.pi() * (self.turns + self.turns_at(t)), 2 * self.w * rate / scale
 
     def gradient(self, t: Any) -> tuple[Any, ...]:
         """d(theta, theta')/d(theta0, omega0, g, l) at fixed t: the four of theta, then those of theta'."""

@@ -15,6 +15,7 @@ from reference.arithmetic import BALL, MPMATH, Arithmetic, EllipticArithmetic
 from reference.exact import as_number, exact
 from reference.limbs import ziv
 from reference.problem import Row, SeparableProblem
+from reference.problems.pendulum.chart import MANY, Chart, chart
 from reference.problems.pendulum.equations import angular_acceleration, energy_above_rest
 from reference.problems.pendulum.events import DECISION_BITS, Events, events
 from reference.problems.pendulum.motions import (
@@ -198,9 +199,9 @@ class Pendulum(SeparableProblem):
         return at_start.get(row)
 
     def working_bits(self, arguments: Sequence[Any]) -> int:
-        times = [abs(t) for t in arguments if isinstance(t, Fraction)]
-        turns = max(times, default=Fraction(0)) * (1 + self.g / self.length + abs(self.omega0))
-        return int(turns).bit_length() + 2 * self._edge_bits
+        sizes = [_size(t) for t in arguments if isinstance(t, Fraction)]
+        turns = max(sizes, default=0) + _size(1 + self.g / self.length + abs(self.omega0))
+        return max(0, turns) + 2 * self._edge_bits
 
     @cached_property
     def _edge_bits(self) -> int:
@@ -216,6 +217,12 @@ class Pendulum(SeparableProblem):
             )
             exponents = [int(man).bit_length() + int(exp) for man, exp in (ball.mid().man_exp() for ball in squares)]
         return max(0, -min(exponents) // 2)
+
+    def chart(self, row: str, count: int, bits: int) -> Chart | None:
+        """States of libration or rotation from nodes around one period, at MANY times and more."""
+        if row != "state" or self.motion not in {"libration", "rotation"} or count < MANY:
+            return None
+        return chart(self.closed_form(BALL), count, bits)  # type: ignore[arg-type]
 
     def quadrature_form(self) -> Motion:
         """The same with the periods from their integrals, in mpmath."""
@@ -251,6 +258,11 @@ class Pendulum(SeparableProblem):
             ValueError: ``until`` is negative or not finite, or the events before it are more than MAX_EVENTS.
         """
         return events(self, until)
+
+
+def _size(value: Fraction) -> int:
+    """About log2 of its absolute value."""
+    return value.numerator.bit_length() - value.denominator.bit_length() + 1
 
 
 def _decide(enclose: Callable[[], arb], what: str) -> arb:
