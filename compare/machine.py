@@ -11,11 +11,12 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from compare.records import Study
+__all__ = ["COLUMNS", "Columns", "csv_text", "json_text", "rows"]
 
-__all__ = ["COLUMNS", "csv_text", "json_text", "rows"]
+Columns = dict[str, tuple[str, ...]]
+"""The fields of each table of a study, by the table's name."""
 
-COLUMNS = {
+COLUMNS: Columns = {
     "error_vs_n": ("method", "n", "h", "theta0", "max_error", "end_error", "local_order", "floor", "evaluations"),
     "order": ("method", "theta0", "declared_order", "fitted_order", "spread", "cells_used", "n_range"),
     "energy_drift": (
@@ -31,36 +32,36 @@ COLUMNS = {
 }
 
 
-def rows(study: Study, table: str) -> list[dict[str, Any]]:
+def rows(study: Any, table: str, columns: Columns = COLUMNS) -> list[dict[str, Any]]:
     """One table of the study as plain rows; a number that is not finite is None."""
-    return [{key: _plain(getattr(record, key)) for key in COLUMNS[table]} for record in getattr(study, table)]
+    return [{key: _plain(getattr(record, key)) for key in columns[table]} for record in getattr(study, table)]
 
 
-def json_text(study: Study) -> str:
+def json_text(study: Any, columns: Columns = COLUMNS) -> str:
     """One JSON object: problem, parameters, reference, engine, tables; one line a row, floats to the last bit.
 
     A number that is not finite is null, since JSON has no such numbers.
     """
     heads = [f'  "{name}": {_json(getattr(study, name))},' for name in ("problem", "parameters", "reference", "engine")]
-    tables = [f'    "{table}": {_json_rows(rows(study, table))}' for table in COLUMNS]
+    tables = [f'    "{table}": {_json_rows(rows(study, table, columns))}' for table in columns]
     return "\n".join(["{", *heads, '  "tables": {', ",\n".join(tables), "  }", "}", ""])
 
 
-def csv_text(study: Study) -> dict[str, str]:
+def csv_text(study: Any, columns: Columns = COLUMNS) -> dict[str, str]:
     """Each table by name as CSV (RFC 4180 quoting, lines ended by a newline), its first column naming the table.
 
     A number that is not finite, or not known, is an empty field; a range of N is two fields.
     """
-    return {table: _csv(table, rows(study, table)) for table in COLUMNS}
+    return {table: _csv(table, rows(study, table, columns), columns[table]) for table in columns}
 
 
-def _csv(table: str, found: Iterable[dict[str, Any]]) -> str:
+def _csv(table: str, found: Iterable[dict[str, Any]], keys: tuple[str, ...]) -> str:
     buffer = io.StringIO()
     writer = csv.writer(buffer, lineterminator="\n")
     ranges = {"n_range": ("n_from", "n_to")}
-    writer.writerow(["table", *(name for key in COLUMNS[table] for name in ranges.get(key, (key,)))])
+    writer.writerow(["table", *(name for key in keys for name in ranges.get(key, (key,)))])
     for row in found:
-        fields = [(row[key] or (None, None)) if key in ranges else (row[key],) for key in COLUMNS[table]]
+        fields = [(row[key] or (None, None)) if key in ranges else (row[key],) for key in keys]
         writer.writerow([table, *(_csv_field(value) for values in fields for value in values)])
     return buffer.getvalue()
 

@@ -9,26 +9,21 @@ from __future__ import annotations
 import itertools
 import math
 import re
-import textwrap
 from typing import TYPE_CHECKING
 
-from compare import grid, machine
+from compare import grid, machine, rendering
 from compare.grid import Column, Grid, Section
+from compare.rendering import FORMATS, Tables
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator, Sequence
 
     from compare.records import Cell, Drift, FittedOrder, Study
 
-__all__ = ["FORMATS", "files", "render", "sections"]
+__all__ = ["FORMATS", "TABLES", "files", "render", "sections"]
 
-FORMATS = ("text", "markdown", "csv", "latex", "json")
-
-_SUFFIX = {"text": "txt", "markdown": "md", "latex": "tex", "json": "json"}
-_PAGE_WIDTH = {"markdown": 100, "latex": 72}
 _NAN_NOTE = "nan means overflow, or an implicit method whose stages do not converge at this h"
 _FLOOR_NOTE = "* means rounding, not order: within ten times the rounding floor of the engine"
-_UNITS = {"theta0": "rad", "g": "m/s^2", "length": "m", "t_end": "s"}
 
 
 def render(study: Study, form: str = "text", width: int = 100) -> str:
@@ -37,29 +32,12 @@ def render(study: Study, form: str = "text", width: int = 100) -> str:
     Raises:
         ValueError: the format is not one of FORMATS.
     """
-    if form == "json":
-        return machine.json_text(study)
-    if form == "csv":
-        return "\n".join(machine.csv_text(study).values())
-    if form not in FORMATS:
-        raise ValueError(f"the format {form!r} is not one of {', '.join(FORMATS)}")
-    parts = sections(study, _PAGE_WIDTH.get(form, width))
-    if form == "markdown":
-        bullets = "\n".join(f"- **{name}**: {grid.markdown_text(fact)}" for name, fact in _header(study))
-        return "\n".join([f"## {study.problem}\n\n{bullets}\n", *map(grid.markdown, parts)])
-    if form == "latex":
-        facts = (f"{name}: {fact}" for name, fact in _header(study))
-        comment = "\n".join(f"% {line}" for line in ("needs \\usepackage{booktabs}", *facts))
-        return "\n".join([comment + "\n", *map(grid.latex, parts)])
-    return "\n\n".join([_header_text(study, width) + "\n", *map(grid.text, parts)])
+    return rendering.render(study, TABLES, form, width)
 
 
 def files(study: Study, form: str = "text", width: int = 100) -> dict[str, bytes]:
     """What `render` gives, by file name: one file, or for CSV one file a table."""
-    if form == "csv":
-        tables = machine.csv_text(study)
-        return {f"{study.problem}-{name}.csv": table.encode() for name, table in tables.items()}
-    return {f"{study.problem}.{_SUFFIX[form]}": render(study, form, width).encode()}
+    return rendering.files(study, TABLES, form, width)
 
 
 def sections(study: Study, width: int = 100) -> Iterator[Section]:
@@ -73,32 +51,6 @@ def sections(study: Study, width: int = 100) -> Iterator[Section]:
         yield _order_section([fit for fit in study.order if fit.theta0 == theta0], at)
         yield _drift_section(drifts, declared, at, width)
         yield _slope_section(drifts, declared, at, width)
-
-
-def _header(study: Study) -> Iterator[tuple[str, str]]:
-    """What was computed, against what and by what: names and their facts."""
-    values = (f"{name} = {_value(value)} {_UNITS.get(name, '')}".rstrip() for name, value in study.parameters.items())
-    yield study.problem, ", ".join(values)
-    for name, fact in (*study.reference.items(), *study.engine.items()):
-        yield name, _value(fact)
-
-
-def _header_text(study: Study, width: int) -> str:
-    """The header as two columns."""
-    facts = list(_header(study))
-    indent = max(len(name) for name, _ in facts) + 2
-    return "\n".join(
-        textwrap.fill(fact, width, initial_indent=name.ljust(indent), subsequent_indent=" " * indent)
-        for name, fact in facts
-    )
-
-
-def _value(value: object) -> str:
-    if isinstance(value, (list, tuple)):
-        return ", ".join(map(_value, value))
-    if isinstance(value, dict):
-        return ", ".join(f"{key} {_value(item)}" for key, item in value.items())
-    return value if isinstance(value, str) else repr(value)
 
 
 def _error_section(cells: Sequence[Cell], declared: dict[str, int], at: str, width: int) -> Section:
@@ -280,3 +232,7 @@ def _fitted(fit: FittedOrder) -> str:
     if fit.spread is None:
         return f"{fit.fitted_order:.4f}"
     return f"{fit.fitted_order:.4f} ± {fit.spread:{'.4f' if fit.spread >= 5e-5 else '.0e'}}"
+
+
+TABLES = Tables(sections, machine.COLUMNS)
+"""How a study of fixed steps is shown."""
