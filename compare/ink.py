@@ -86,7 +86,7 @@ def label_right(axes: Any, ends: dict[str, tuple[float, float]], ink: dict[str, 
     to_axes = axes.transData + axes.transAxes.inverted()
     points = {name: to_axes.transform(end) for name, end in ends.items()}
     names = sorted(points, key=lambda name: float(points[name][1]))
-    heights = spread([float(points[name][1]) for name in names], gap)
+    heights = spread([float(points[name][1]) for name in names], min(gap, 1 / max(len(names) - 1, 1)))
     for name, height in zip(names, heights, strict=True):
         x, y = points[name]
         own = ink[name]

@@ -17,11 +17,12 @@ if TYPE_CHECKING:
 
     from compare.records import Cell, Study, Trace
 
-__all__ = ["FIGURES", "figures", "files"]
+__all__ = ["FIGURES", "draw_curves", "figures", "files", "wide_figure"]
 
 _PANEL_COLUMNS = 4
 _FAINTEST_DRIFT = 1e-17
 _BESIDE = 4.0
+_ANGLE_ERROR = "largest error |θ − θ_exact|  [rad]"
 
 
 def files(study: Study) -> dict[str, bytes]:
@@ -41,9 +42,9 @@ def figures(study: Study) -> Iterator[tuple[str, Figure]]:
 
 def error_figure(study: Study, theta0: float) -> Figure:
     """Largest error against N, with the declared orders as dashed slopes; hollow grey cells are rounding."""
-    figure, axes = _wide_figure(f"Error against number of steps, θ₀ = {theta0!r} rad", top=0.84)
+    figure, axes = wide_figure(f"Error against number of steps, θ₀ = {theta0!r} rad", top=0.84)
     curves = _curves(study, theta0)
-    _draw_curves(axes, curves, _ink(study), lambda cell: cell.n)
+    draw_curves(axes, curves, _ink(study), lambda cell: cell.n)
     _draw_slopes(axes, study, curves)
     axes.set_xlabel("number of steps N")
     _add_step_sizes(axes, float(Fraction(study.parameters["t_end"])))
@@ -52,8 +53,8 @@ def error_figure(study: Study, theta0: float) -> Figure:
 
 def work_figure(study: Study, theta0: float) -> Figure:
     """Largest error against evaluations of the right-hand side."""
-    figure, axes = _wide_figure(f"Work and precision, θ₀ = {theta0!r} rad", top=0.92)
-    _draw_curves(axes, _curves(study, theta0), _ink(study), lambda cell: cell.evaluations)
+    figure, axes = wide_figure(f"Work and precision, θ₀ = {theta0!r} rad", top=0.92)
+    draw_curves(axes, _curves(study, theta0), _ink(study), lambda cell: cell.evaluations)
     axes.set_xlabel("evaluations of the right-hand side")
     return figure
 
@@ -123,7 +124,7 @@ def _traces(study: Study, theta0: float) -> list[Trace]:
     return sorted(found, key=lambda trace: order.index(trace.method))
 
 
-def _wide_figure(title: str, top: float) -> tuple[Figure, Any]:
+def wide_figure(title: str, top: float, error: str = _ANGLE_ERROR) -> tuple[Figure, Any]:
     """One logarithmic pair of axes, as high as `top`, with room at the right for labels."""
     figure = Figure(figsize=(10.5, 6.4))
     axes = figure.add_axes((0.08, 0.095, 0.65, top - 0.095))
@@ -131,12 +132,15 @@ def _wide_figure(title: str, top: float) -> tuple[Figure, Any]:
     axes.set_xscale("log")
     axes.set_yscale("log")
     axes.grid(visible=True, which="major")
-    axes.set_ylabel("largest error |θ − θ_exact|  [rad]")
+    axes.set_ylabel(error)
     return figure, axes
 
 
-def _draw_curves(axes: Any, curves: dict[str, list[Cell]], ink: dict[str, Ink], work: Callable[[Cell], int]) -> None:
-    """Curves in their inks as far as they show order, thin and hollow where they are rounding, named at the right."""
+def draw_curves(axes: Any, curves: dict[str, list[Any]], ink: dict[str, Ink], work: Callable[[Any], float]) -> None:
+    """Curves in their inks as far as they show order, thin and hollow where they are rounding, named at the right.
+
+    A cell of a curve has ``max_error`` and ``floor``; ``work`` is its place along the axis.
+    """
     ends = {}
     for method, cells in curves.items():
         own = ink[method]
