@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from compare.trace import compile_block
+from compare.trace import compile_block, entry_rows, plain_block
 from reference.arithmetic import BALL
 
 if TYPE_CHECKING:
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
     from flint import arb
 
-    from compare.method import Method
+    from compare.contract import Method
     from compare.precision import Precision
     from compare.trace import Block, Record
     from reference.problem import Problem
@@ -32,14 +32,14 @@ __all__ = ["Lane", "March", "StartInvariant", "iterations_for", "march", "sample
 
 LONG_BLOCKS, SHORT_BLOCK = (64, 32, 16), 8
 LONG_MARCH = 8192
-BLOCK_EVALUATIONS, MIN_BLOCK = 256, 8
+BLOCK_SIZE, WIDE_BLOCK_SIZE = 256, 32
+"""Evaluations in a compiled block, about: many where a call costs as much as hundreds of steps, few in wide formats."""
+JACOBIAN_SIZE, JACOBIAN_BATCH = 3, 16
+"""A Jacobian and what is solved with it is code for so many evaluations, and fills the registers of so many lanes."""
 INLINE_SINE = 10**9
 """Evaluations from which the sine is compiled into the march: the seconds that it takes are then won back."""
-MAX_CONTRACTION = 0.5
-ITERATIONS = (6, 8, 12, 16, 24, 36, 54, 80, 120, 180, 270)
-"""Counts of fixed-point iterations: few, for each is compiled, and less than doubling, so that work grows with N."""
 CONVERGED = 1000
-"""A last fixed-point iteration may change the state by this many roundings."""
+"""A last iteration may change the state by this many roundings."""
 
 
 @dataclass(frozen=True)
@@ -65,11 +65,13 @@ class March:
         states: [samples, state] in the format; NaN where the stage equations of an implicit method did not converge.
         max_drift: the largest |invariant - its start| after any step.
         evaluations: of the right-hand side, over the march.
+        jacobians: evaluations of its Jacobian, or of the invariant's gradient.
     """
 
     states: np.ndarray
     max_drift: float
     evaluations: int
+    jacobians: int
 
 
 @dataclass(frozen=True)
@@ -98,25 +100,18 @@ def _grain(n: int) -> int:
     return next((block for block in LONG_BLOCKS if n % block == 0 and n >= LONG_MARCH), 1)
 
 
-def _block_steps(grain: int, evaluations: int) -> int:
+def _block_steps(grain: int, size: int, fmt: Precision, opening: int) -> int:
     """Steps that one compiled block takes: a divisor of the grain that keeps the block's code of moderate length."""
-    while grain > MIN_BLOCK and grain * evaluations > BLOCK_EVALUATIONS:
+    shortest = 1 << max(opening - 1, 0).bit_length()
+    room = BLOCK_SIZE if fmt.lanes > 1 else WIDE_BLOCK_SIZE
+    while grain > shortest and grain * size > room:
         grain //= 2
     return grain
 
 
-def iterations_for(method: Method, problem: Problem, h: float, bits: int) -> int | None:
-    """Fixed-point iterations that bring the stages to rounding: 0 for an explicit method, else one of ITERATIONS.
-
-    None where an iteration would gain less than a bit.
-    """
-    contraction = method.contraction(h * problem.rate())
-    if contraction == 0:
-        return 0
-    if contraction > MAX_CONTRACTION:
-        return None
-    needed = (bits + 3) / -math.log2(contraction)
-    return next((count for count in ITERATIONS if count > needed), None)
+def iterations_for(method: Method, problem: Problem, h: float, bits: int) -> int:
+    """Iterations that bring the equations of an implicit step to rounding; 0 for an explicit method."""
+    return method.iterations(h * problem.rate(), bits)
 
 
 def march(method: Method, lanes: Sequence[Lane], fmt: Precision) -> list[March]:
@@ -132,11 +127,8 @@ def march(method: Method, lanes: Sequence[Lane], fmt: Precision) -> list[March]:
         if method.separable_only and not getattr(lane.problem, "positions", 0):
             raise ValueError(f"{method.name} splits kicks from drifts, and {lane.problem.name} is not separable.")
         iterations = iterations_for(method, lane.problem, float(lane.h), fmt.bits)
-        if iterations is None:
-            results[i] = March(np.full((len(lane.samples), len(lane.problem.state_names)), np.nan), math.nan, 0)
-        else:
-            grain = _grain(lane.n)
-            groups[grain if all(step % grain == 0 for step in lane.samples) else 1, iterations].append(i)
+        grain = _grain(lane.n)
+        groups[grain if all(step % grain == 0 for step in lane.samples) else 1, iterations].append(i)
     for (grain, iterations), members in groups.items():
         members.sort(key=lambda i: -lanes[i].n)
         group = _Group(method, [lanes[i] for i in members], fmt, grain, iterations)
@@ -151,11 +143,13 @@ class _Group:
         self.method, self.lanes, self.fmt, self.iterations = method, lanes, fmt, iterations
         problem = lanes[0].problem
         self.every = grain == 1
-        evaluations = method.evaluations(iterations)[0]
+        evaluations, jacobians = method.evaluations(iterations)[0], method.jacobians(iterations)
         inline = fmt.type is float and sum(lane.n for lane in lanes) * evaluations >= INLINE_SINE
-        self.steps = _block_steps(SHORT_BLOCK if self.every else grain, evaluations * (4 if inline else 1))
+        size = evaluations * (4 if inline else 1) + jacobians * JACOBIAN_SIZE
+        self.steps = _block_steps(SHORT_BLOCK if self.every else grain, size, fmt, method.opening)
         lasting = sum(8 * lane.n >= lanes[0].n for lane in lanes)
-        self.batch = min(fmt.lanes, 1 << (max(lasting, 8) - 1).bit_length())
+        batch = min(fmt.lanes, 1 << (max(lasting, 8) - 1).bit_length())
+        self.batch = min(batch, JACOBIAN_BATCH) if jacobians else batch
         self.dimension = len(problem.state_names)
         self.ends = np.array([lane.n for lane in lanes])
         record: Record = "every" if self.every else "last"
@@ -174,7 +168,10 @@ class _Group:
         events = self._events()
         taken = 0
         while lanes.shape[1]:
-            self.block(lanes, parameters, out)
+            if taken == 0 and self.method.opening:
+                out[:] = self._opening(lanes, parameters)
+            else:
+                self.block(lanes, parameters, out)
             taken += self.steps
             lanes, out, spare = out[-rows:], spare, out
             if self.every or taken in events:
@@ -190,14 +187,24 @@ class _Group:
         padded = [*self.lanes, *[self.lanes[-1]] * (self._width(0) - len(self.lanes))]
         starts = [self.fmt.array(lane.problem.start[i] for lane in padded) for i in range(self.dimension)]
         names = list(padded[0].problem.parameters)
-        zero = self.fmt.zeros((len(padded),))
         invariants = {lane.problem: self.fmt.number(StartInvariant(lane.problem)) for lane in padded}
         parameters = [
             self.fmt.array(lane.h for lane in padded),
             np.array([invariants[lane.problem] for lane in padded], dtype=self.fmt.type),
             *(self.fmt.array(lane.problem.parameters[name] for lane in padded) for name in names),
         ]
-        return np.stack([*starts, zero, zero]), np.stack(parameters)
+        values = np.stack(parameters)
+        rows = entry_rows(self.method, padded[0].problem, self.fmt, np.stack(starts), values)[0]
+        rows[-2:] = self.fmt.zeros((2, len(padded)))
+        return rows, values
+
+    def _opening(self, lanes: np.ndarray, parameters: np.ndarray) -> np.ndarray:
+        """What the first block gives where the method cannot take its first steps itself."""
+        problem, states = self.lanes[0].problem, lanes[: self.dimension]
+        rows = plain_block(self.method, problem, self.fmt, states, parameters, self.steps, self.iterations)
+        if self.every:
+            return rows.reshape(-1, lanes.shape[1])
+        return np.concatenate([rows[-1, :-2], rows[:, -2:].max(axis=0)])
 
     def _events(self) -> dict[int, list[tuple[int, int, int]]]:
         """Steps taken at the end of a block -> (lane, sample, index in the block's output) of the states to keep."""
@@ -214,13 +221,13 @@ class _Group:
             self.states[lane][sample] = outputs[index, : self.dimension, lane]
         count = min(len(self.lanes), outputs.shape[2])
         if self.every:
-            values = outputs[:, self.dimension :, :count].astype(np.float64)
+            values = outputs[:, -2:, :count].astype(np.float64)
             step = np.arange(taken - self.steps, taken)[:, None, None]
             largest = np.where(step < self.ends[:count], values, 0.0).max(axis=0)
             self.maxima[:count] = np.maximum(self.maxima[:count], largest.T)
         else:
             ended = np.flatnonzero(self.ends[:count] == taken)
-            self.maxima[ended] = outputs[-1, self.dimension :, ended].astype(np.float64)
+            self.maxima[ended] = outputs[-1, -2:, ended].astype(np.float64)
 
     def _width(self, taken: int) -> int:
         """Lanes still marching, padded to whole batches."""
@@ -233,4 +240,5 @@ class _Group:
         if not change <= CONVERGED * self.fmt.epsilon * size:
             states, drift = np.full(states.shape, np.nan), math.nan
         per_step, once = self.method.evaluations(self.iterations)
-        return March(states, float(drift), per_step * lane.n + once)
+        own = max(lane.n - self.method.opening, 0)
+        return March(states, float(drift), per_step * own + once, self.method.jacobians(self.iterations) * own)

@@ -1,48 +1,25 @@
-"""What a method is: a frozen table, and the step that follows from it in any arithmetic.
-
-A step is written once, on a ``System`` (the equation in the arithmetic at hand) and a tuple of numbers.  The same lines
-run on floats, on NumPy arrays of any type, and on heyoka's symbols, which compiles them.
-"""
+"""One-step methods: frozen tables, and the step that follows from each in any arithmetic."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property, reduce
+from functools import cached_property
 from itertools import pairwise
-from operator import add
-from typing import TYPE_CHECKING, Any, Protocol, TypeAlias
+from typing import TYPE_CHECKING, Any
 
+from compare import newton
 from compare.algebraic import Coefficient, Q, enclose
+from compare.contract import Method, OneStep, State, System
+from compare.increment import advance, increment, part
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-__all__ = ["Method", "Splitting", "State", "System", "Tableau", "compose"]
-
-State = tuple[Any, ...]
-
-
-class System(Protocol):
-    """An equation of motion y' = f(y) in one arithmetic; positions first where it is separable."""
-
-    positions: int
-    """How many of the components are positions, 0 where the equation is not separable."""
-
-    def number(self, value: Coefficient) -> Any:
-        """An exact coefficient as a number of the arithmetic."""
-
-    def derivative(self, y: State) -> State:
-        """f(y)."""
-
-    def velocity(self, momenta: State) -> State:
-        """The rates of the positions, which depend on the momenta alone."""
-
-    def force(self, positions: State) -> State:
-        """The rates of the momenta, which depend on the positions alone."""
+__all__ = ["Method", "OneStep", "Splitting", "State", "System", "Tableau", "compose"]
 
 
 @dataclass(frozen=True)
-class Tableau:
+class Tableau(OneStep):
     """A Runge-Kutta method: Y_i = y + h sum_j a_ij f(Y_j),  y+ = y + h sum_i b_i f(Y_i).
 
     ``a`` is given as printed: for an explicit method the strictly lower rows (the first empty).  ``c`` is derived from
@@ -89,50 +66,30 @@ class Tableau:
         """Whether every stage depends on earlier stages alone."""
         return all(self.matrix[i][j] == 0 for i in range(self.stages) for j in range(i, self.stages))
 
-    def contraction(self, rate: float) -> float:
+    def iterations(self, size: float, bits: int) -> int:
         if self.explicit:
-            return 0.0
-        norms = [sum(abs(float(enclose(entry))) for entry in row) for row in self.matrix]
-        return rate * max(norms)
+            return 0
+        norm = max(sum(abs(float(enclose(entry))) for entry in row) for row in self.matrix)
+        return newton.iterations(size * norm, bits)
 
     def evaluations(self, iterations: int) -> tuple[int, int]:
-        return (self.stages if self.explicit else self.stages * (iterations + 1)), 0
+        return (self.stages if self.explicit else newton.evaluations(self.matrix, iterations)), 0
+
+    def jacobians(self, iterations: int) -> int:
+        return newton.jacobians(self.matrix, iterations)
 
     def step(self, system: System, y: State, h: Any, iterations: int = 0) -> tuple[State, State]:
-        if self.explicit:
-            slopes: list[State] = []
-            for row in self.matrix:
-                slopes.append(system.derivative(_advance(system, y, h, row, slopes)))
-            return _advance(system, y, h, self.b, slopes), ()
-        return self._implicit_step(system, y, h, iterations)
-
-    def _implicit_step(self, system: System, y: State, h: Any, iterations: int) -> tuple[State, State]:
-        """Fixed-point iteration on the slopes from f(y), the last change of the step reported."""
-        slopes = [system.derivative(y)] * self.stages
-        before = slopes
-        for _ in range(iterations):
-            before = slopes
-            slopes = [system.derivative(_advance(system, y, h, row, before)) for row in self.matrix]
-        new = _advance(system, y, h, self.b, slopes)
-        old = _advance(system, y, h, self.b, before)
-        return new, tuple(after - earlier for after, earlier in zip(new, old, strict=True))
-
-
-def _advance(system: System, y: State, h: Any, weights: Sequence[Coefficient], slopes: Sequence[State]) -> State:
-    """y + sum_j (h weights_j) slopes_j."""
-    sizes = [(_part(system, weight, h), slope) for weight, slope in zip(weights, slopes, strict=False) if weight != 0]
-    if not sizes:
-        return y
-    return tuple(component + reduce(add, (size * slope[i] for size, slope in sizes)) for i, component in enumerate(y))
-
-
-def _part(system: System, weight: Coefficient, h: Any) -> Any:
-    """weight h: the same in every step, so that the compiler takes it out of them all."""
-    return h if weight == 1 else system.number(weight) * h
+        if not self.explicit:
+            slopes, changes = newton.slopes(system, y, h, (self.matrix,) * len(y), iterations)
+            return advance(system, y, h, self.b, slopes), increment(system, h, self.b, changes)
+        slopes = []
+        for row in self.matrix:
+            slopes.append(system.derivative(advance(system, y, h, row, slopes)))
+        return advance(system, y, h, self.b, slopes), ()
 
 
 @dataclass(frozen=True)
-class Splitting:
+class Splitting(OneStep):
     """A composition of the exact flows of the two halves of a separable system, in the order they are applied.
 
     ``flows`` is a sequence of ("kick", d), which adds d h force(q) to the momenta, and ("drift", c), which adds
@@ -165,9 +122,6 @@ class Splitting:
     def stages(self) -> int:
         return sum(kind == "kick" for kind, _ in self.flows)
 
-    def contraction(self, rate: float) -> float:  # noqa: ARG002 - explicit: there is nothing to iterate
-        return 0.0
-
     def evaluations(self, iterations: int) -> tuple[int, int]:  # noqa: ARG002
         """One fewer per step where the last kick's force is the first kick's of the next step."""
         shared = self.flows[0][0] == self.flows[-1][0] == "kick"
@@ -176,7 +130,7 @@ class Splitting:
     def step(self, system: System, y: State, h: Any, iterations: int = 0) -> tuple[State, State]:  # noqa: ARG002
         positions, momenta = y[: system.positions], y[system.positions :]
         for kind, weight in self.flows:
-            dt = _part(system, weight, h)
+            dt = part(system, weight, h)
             if kind == "kick":
                 momenta = tuple(p + dt * f for p, f in zip(momenta, system.force(positions), strict=True))
             else:
@@ -196,13 +150,3 @@ def compose(
                 scaled = flows.pop()[1] + scaled
             flows.append((kind, scaled))
     return Splitting(name, order, source, tuple(flows), aliases)
-
-
-Method: TypeAlias = Tableau | Splitting
-"""A one-step method with a fixed step.
-
-Either answers ``name, order, source, family, aliases, stages, symplectic, separable_only``;
-``contraction(rate)``, the factor by which one fixed-point iteration reduces the error of the stages where h times the
-Lipschitz rate is ``rate``; ``evaluations(iterations)``, the evaluations of the right-hand side as (per step, once);
-and ``step(system, y, h, iterations)``, the new state and what the last iteration changed (empty for explicit methods).
-"""

@@ -115,8 +115,8 @@ class Precision:
 
     @property
     def compiler_options(self) -> dict[str, Any]:
-        """What heyoka's compiler needs to know."""
-        return {"fp_type": self.type, **({"prec": self.bits} if self.type is hy.real else {})}
+        """What heyoka's compiler needs to know; calls of MPFR gain nothing from optimization, which takes long."""
+        return {"fp_type": self.type, **({"prec": self.bits, "opt_level": 0} if self.type is hy.real else {})}
 
 
 FORMATS = (

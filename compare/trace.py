@@ -1,7 +1,8 @@
 """A method and a problem, traced once with symbols and compiled by heyoka: a block of steps over lanes.
 
 Every lane is one march of its own, with its own start, step size and parameters.  A block takes some steps; it gives
-the state after every step, or after the last one with the running maxima of the energy error.
+the state after every step, or after the last one with the running maxima of the energy error.  What a method remembers
+of earlier steps stands behind the state and is marched with it.
 """
 
 from __future__ import annotations
@@ -12,20 +13,19 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 
 from compare.algebraic import Q
+from compare.bound import BoundSystem, plain_system
 from compare.sine import LaneArithmetic
-from reference.arithmetic import NUMPY, Heyoka
+from reference.arithmetic import Heyoka
 from reference.compiler import hy
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from compare.algebraic import Coefficient
-    from compare.method import Method, State
+    from compare.contract import Method, State
     from compare.precision import Precision
-    from reference.arithmetic import Arithmetic
     from reference.problem import Problem
 
-__all__ = ["Block", "BoundSystem", "Record", "TraceError", "compile_block", "plain_block"]
+__all__ = ["Block", "Record", "TraceError", "compile_block", "entry_rows", "plain_block"]
 
 Record = Literal["every", "last"]
 CHECK_LANES = 8
@@ -35,44 +35,13 @@ class TraceError(ArithmeticError):
     """A compiled step does not do what the plain step does."""
 
 
-class BoundSystem:
-    """A problem's equation in one arithmetic, its parameters numbers of that arithmetic."""
-
-    def __init__(self, problem: Problem, m: Arithmetic, parameters: dict[str, Any], fmt: Precision) -> None:
-        self.positions: int = getattr(problem, "positions", 0)
-        self._problem: Any = problem
-        self._m = m
-        self._parameters = parameters
-        self._fmt = fmt
-        self._numbers: dict[Coefficient, Any] = {}
-
-    def number(self, value: Coefficient) -> Any:
-        if value not in self._numbers:
-            rounded = self._fmt.number(value)
-            self._numbers[value] = hy.expression(rounded) if isinstance(self._m, Heyoka) else rounded
-        return self._numbers[value]
-
-    def derivative(self, y: State) -> State:
-        return tuple(self._problem.derivative(self._m, y, self._parameters))
-
-    def velocity(self, momenta: State) -> State:
-        return tuple(self._problem.velocity(self._m, momenta, self._parameters))
-
-    def force(self, positions: State) -> State:
-        return tuple(self._problem.force(self._m, positions, self._parameters))
-
-    def invariant(self, y: State) -> Any:
-        """The problem's conserved quantity above its least value."""
-        return self._problem.invariant(self._m, y, self._parameters)
-
-
 @dataclass(frozen=True)
 class Block:
     """``steps`` compiled steps over lanes.
 
-    Rows of the input are the state, then two that carry the running maxima of |invariant - start| and of the change
-    by the last fixed-point iteration.  Rows of the output are the same: once, or with record "every" once per step
-    with the values of that step in place of the maxima.  Parameter rows: h, the start's invariant, the parameters.
+    Rows of the input are the state, the method's memory, then two that carry the running maxima of |invariant - start|
+    and of the change by the last iteration.  Rows of the output are the same: once, or with record "every" once per
+    step with the values of that step in place of the maxima.  Parameter rows: h, the start's invariant, the parameters.
     """
 
     function: Any
@@ -123,16 +92,18 @@ def compile_block(
     Raises:
         TraceError: the compiled block does not agree with the plain steps at random points.
     """
-    y = _variables(problem.state_names)
+    dimension = len(problem.state_names)
+    remembered = method.memory(dimension, getattr(problem, "positions", 0))
+    y = _variables([*problem.state_names, *(f"memory_{i}" for i in range(remembered))])
     symbols = {name: hy.par[i + 2] for i, name in enumerate(problem.parameters)}
     arithmetic = (LaneArithmetic if inline_sine else Heyoka)(fmt.number)
-    system = BoundSystem(problem, arithmetic, symbols, fmt)
+    system = BoundSystem(problem, arithmetic, symbols, fmt, hy.par[1])
     maxima = _variables(("drift", "change"))
     every: list[Any] = []
     state, largest = y, maxima
     for _ in range(steps):
         state, changes = method.step(system, state, hy.par[0], iterations)
-        off = _size([system.invariant(state) - hy.par[1]]) if drift else maxima[0]
+        off = _size([system.invariant(state[:dimension]) - hy.par[1]]) if drift else maxima[0]
         moved = _size(changes) if changes else hy.expression(0.0)
         every += [*state, off, moved]
         largest = (_greater(off, largest[0]) if drift else off), _greater(moved, largest[1])
@@ -147,36 +118,58 @@ def _variables(names: Sequence[str]) -> tuple[Any, ...]:
     return tuple(hy.expression(name) for name in names)
 
 
+def entry_rows(
+    method: Method, problem: Problem, fmt: Precision, states: np.ndarray, parameters: np.ndarray
+) -> np.ndarray:
+    """The start of a march and every step of the method's opening, on NumPy arrays: [opening + 1, rows, lanes].
+
+    The rows are those of a block's input; the last of them are complete, the others have zeros for a memory.
+    """
+    system = plain_system(problem, fmt, parameters)
+    opened, y = method.start(system, tuple(states), parameters[0])
+    before = [tuple(states), *opened][: method.opening]
+    blank = (fmt.zeros(states.shape[1:]),) * (len(y) - len(states))
+    return np.stack([_rows(system, fmt, state, ()) for state in (*((*state, *blank) for state in before), y)])
+
+
 def plain_block(
     method: Method,
     problem: Problem,
     fmt: Precision,
-    lanes: np.ndarray,
+    states: np.ndarray,
     parameters: np.ndarray,
     steps: int,
     iterations: int,
 ) -> np.ndarray:
-    """The same steps on NumPy arrays, nothing compiled: states of shape [steps, state, lanes]."""
-    values = dict(zip(problem.parameters, parameters[2:], strict=True))
-    system = BoundSystem(problem, NUMPY, values, fmt)
-    state: State = tuple(lanes[: len(problem.state_names)])
-    found = []
-    for _ in range(steps):
-        state, _change = method.step(system, state, parameters[0], iterations)
-        found.append(np.stack(state))
-    return np.stack(found)
+    """The first steps of a march on NumPy arrays, the method's opening among them: [steps, rows, lanes]."""
+    system = plain_system(problem, fmt, parameters)
+    found = list(entry_rows(method, problem, fmt, states, parameters))
+    y: State = tuple(found[-1][:-2])
+    while len(found) <= steps:
+        y, changes = method.step(system, y, parameters[0], iterations)
+        found.append(_rows(system, fmt, y, changes))
+    return np.stack(found[1:])
+
+
+def _rows(system: BoundSystem, fmt: Precision, y: State, changes: State) -> np.ndarray:
+    """State, memory, |invariant - start| and the largest change of one step over all lanes."""
+    zero = fmt.zeros(np.shape(y[0]))
+    off = np.abs(system.invariant(y[: system.dimension]) - system.level)
+    moved = np.max(np.abs(np.stack(np.broadcast_arrays(*changes))), axis=0) if changes else zero
+    return np.stack([*(component + zero for component in y), off, moved])
 
 
 def _trust(block: Block, method: Method, problem: Problem, fmt: Precision, iterations: int) -> None:
     """Hold the compiled block against the plain steps at random points: an ``if`` on a symbol is silently true."""
-    lanes, parameters = _random_points(problem, fmt, block.batch)
-    rows = len(problem.state_names)
-    out = fmt.zeros((block.out_rows(len(lanes)), lanes.shape[1]))
-    block(lanes, parameters, out)
-    plain = plain_block(method, problem, fmt, lanes, parameters, block.steps, iterations)
-    traced = out.reshape(-1, len(lanes), lanes.shape[1])[:, :rows]
-    gap = np.max(np.abs((traced - plain[-len(traced) :]).astype(np.float64)))
-    allowed = 1000 * block.steps * fmt.epsilon * (1 + np.max(np.abs(plain.astype(np.float64))))
+    states, parameters = _random_points(problem, fmt, block.batch)
+    plain = plain_block(method, problem, fmt, states, parameters, method.opening + block.steps, iterations)
+    entry = entry_rows(method, problem, fmt, states, parameters)[-1]
+    out = fmt.zeros((block.out_rows(len(entry)), states.shape[1]))
+    block(entry, parameters, out)
+    traced = out.reshape(-1, *entry.shape)[:, : len(states)]
+    expected = plain[-len(traced) :, : len(states)]
+    gap = np.max(np.abs((traced - expected).astype(np.float64)))
+    allowed = 1000 * block.steps * fmt.epsilon * (1 + np.max(np.abs(expected.astype(np.float64))))
     if not gap <= allowed:
         raise TraceError(
             f"{method.name} compiled for {problem.name} in {fmt.name} is off by {gap:.1e} from its plain evaluation "
@@ -185,14 +178,16 @@ def _trust(block: Block, method: Method, problem: Problem, fmt: Precision, itera
 
 
 def _random_points(problem: Problem, fmt: Precision, batch: int) -> tuple[np.ndarray, np.ndarray]:
-    """Random states within (-3, 3), step sizes within (0.01, 0.1) and parameters within (1/2, 2)."""
+    """Random states within (-3, 3), step sizes within (0.01, 0.1), parameters within (1/2, 2), each its own level."""
     random = np.random.default_rng(20260101)
     lanes_count = batch * -(-CHECK_LANES // batch)
 
     def column(low: float, high: float) -> np.ndarray:
         return fmt.array(Q(float(value)) for value in random.uniform(low, high, lanes_count))
 
-    zero = fmt.zeros((lanes_count,))
-    lanes = np.stack([*(column(-3, 3) for _ in problem.state_names), zero, zero])
+    states = np.stack([column(-3, 3) for _ in problem.state_names])
     values = [column(0.5, 2) for _ in problem.parameters]
-    return lanes, np.stack([column(0.01, 0.1), zero, *values])
+    h = column(0.01, 0.1)
+    parameters = np.stack([h, fmt.zeros(h.shape), *values])
+    parameters[1] = plain_system(problem, fmt, parameters).invariant(tuple(states))
+    return states, parameters

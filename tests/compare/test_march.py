@@ -5,18 +5,21 @@ from __future__ import annotations
 import tracemalloc
 from dataclasses import replace
 from fractions import Fraction
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pytest
 
-from compare.march import Lane, iterations_for, march, sample_steps
+from compare.bound import BoundSystem, plain_system
+from compare.march import Lane, StartInvariant, iterations_for, march, sample_steps
+from compare.method import Splitting
 from compare.methods import METHODS, find
 from compare.precision import precision
 from compare.trace import plain_block
 from reference import Pendulum
 
 if TYPE_CHECKING:
+    from compare.contract import Method
     from reference.problem import Problem
 
 FLOAT64 = precision("float64")
@@ -30,10 +33,11 @@ def lane(n: int, problem: Problem = PENDULUM, t_end: int = 10) -> Lane:
 def plain_march(name: str, one: Lane, iterations: int = 0) -> np.ndarray:
     """The states at the samples by NumPy alone, one lane, one step after another."""
     h = float(one.h)
-    lanes = np.array([[float(value)] for value in one.problem.start])
-    parameters = np.array([[h], [0.0], *([float(value)] for value in one.problem.parameters.values())])
-    states = plain_block(find(name), one.problem, FLOAT64, lanes, parameters, one.n, iterations)
-    return states[np.array(one.samples) - 1, :, 0]
+    states = np.array([[float(value)] for value in one.problem.start])
+    level = float(FLOAT64.number(StartInvariant(one.problem)))
+    parameters = np.array([[h], [level], *([float(value)] for value in one.problem.parameters.values())])
+    rows = plain_block(find(name), one.problem, FLOAT64, states, parameters, one.n, iterations)
+    return rows[np.array(one.samples) - 1, :2, 0]
 
 
 @pytest.mark.parametrize("n", [1, 7, 128, 200, 1000, 4096, 8192, 9984, 8208])
@@ -72,43 +76,38 @@ def test_the_largest_drift_is_that_of_every_step_and_no_more(n: int) -> None:
 
 
 @pytest.mark.parametrize("method", METHODS, ids=lambda method: method.name)
-def test_evaluations_are_counted_as_they_are_made(method: object) -> None:
+def test_evaluations_are_counted_as_they_are_made(method: Method) -> None:
     """By a system that counts, kick-first splittings sharing the force between steps."""
     one = lane(100)
     (result,) = march(method, [one], FLOAT64)
     iterations = iterations_for(method, PENDULUM, 0.1, 53)
-    counted = Counter()
-    y = (1.0, 0.0)
-    for _ in range(100):
+    level = float(FLOAT64.number(StartInvariant(PENDULUM)))
+    counted = Counter(plain_system(PENDULUM, FLOAT64, np.array([0.1, level, 9.81, 1.0])))
+    _, y = method.start(counted, (1.0, 0.0), 0.1)
+    for _ in range(100 - method.opening):
         y, _change = method.step(counted, y, 0.1, iterations)
-    shared = 99 if method.evaluations(iterations)[1] else 0
-    assert result.evaluations == counted.forces - shared
+    shared = 99 if isinstance(method, Splitting) and method.evaluations(iterations)[1] else 0
+    assert result.evaluations == counted.evaluations - shared
+    assert result.jacobians == counted.jacobians
 
 
 class Counter:
-    """The pendulum in floats, counting forces."""
+    """An equation that counts what is asked of it."""
 
-    positions = 1
+    def __init__(self, system: BoundSystem) -> None:
+        self.system = system
+        self.evaluations = self.jacobians = 0
 
-    def __init__(self) -> None:
-        self.forces = 0
-
-    def number(self, value: object) -> float:
-        return float(FLOAT64.number(value))
-
-    def velocity(self, momenta: tuple[float, ...]) -> tuple[float, ...]:
-        return momenta
-
-    def force(self, positions: tuple[float, ...]) -> tuple[float, ...]:
-        self.forces += 1
-        return (-9.81 * float(np.sin(positions[0])),)
-
-    def derivative(self, y: tuple[float, ...]) -> tuple[float, ...]:
-        return y[1], *self.force(y[:1])
+    def __getattr__(self, name: str) -> Any:
+        if name in {"force", "derivative"}:
+            self.evaluations += 1
+        if name in {"jacobian", "gradient"}:
+            self.jacobians += 1
+        return getattr(self.system, name)
 
 
 def test_an_implicit_method_with_too_large_a_step_gives_no_number() -> None:
-    (coarse, fine) = march(find("implicit_midpoint"), [lane(10), lane(200)], FLOAT64)
+    (coarse, fine) = march(find("implicit_midpoint"), [lane(5), lane(200)], FLOAT64)
     assert np.all(np.isnan(coarse.states))
     assert np.isnan(coarse.max_drift)
     assert np.all(np.isfinite(fine.states))

@@ -30,13 +30,13 @@ def lanes_of(fmt: Precision, count: int) -> tuple[np.ndarray, np.ndarray]:
 @pytest.mark.parametrize("method", METHODS, ids=lambda method: method.name)
 @pytest.mark.parametrize("fmt", [*FORMATS, precision("mp:150")], ids=lambda fmt: fmt.name)
 def test_a_block_gives_the_plain_steps(method: Any, fmt: Precision) -> None:
-    iterations = 0 if method.contraction(1.0) == 0 else 24
+    iterations = method.iterations(0.1, fmt.bits)
     batch = min(8, fmt.lanes)
     block = compile_block(method, PENDULUM, fmt, 4, "every", batch, iterations)
     lanes, parameters = lanes_of(fmt, 8)
     out = fmt.zeros((block.out_rows(4), 8))
     block(lanes, parameters, out)
-    plain = plain_block(method, PENDULUM, fmt, lanes, parameters, 4, iterations)
+    plain = plain_block(method, PENDULUM, fmt, lanes[:2], parameters, 4, iterations)[:, :2]
     gap = np.abs((out.reshape(4, 4, 8)[:, :2] - plain).astype(np.float64))
     assert np.max(gap) < 200 * fmt.epsilon
 
