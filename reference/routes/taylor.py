@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from copy import copy
 from fractions import Fraction
-from functools import cached_property
+from functools import cached_property, lru_cache
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -17,6 +18,11 @@ if TYPE_CHECKING:
 
 __all__ = ["Flow", "to_fraction"]
 
+WORD = 64
+"""MPFR computes with whole words."""
+COMPILED = 16
+"""Equations whose compiled integrators are kept: compiling takes a hundred times as long as a short flow."""
+
 
 class Flow:
     """The flow of a problem's equation from its start, to a tolerance of ``bits`` bits.
@@ -25,46 +31,33 @@ class Flow:
     """
 
     def __init__(self, problem: Problem, bits: int) -> None:
-        from reference.compiler import hy, not_kept
+        from reference.compiler import hy
 
-        self._hy, self._not_kept = hy, not_kept
+        self._hy = hy
         self._problem = problem
-        self._bits = bits
+        self._bits = WORD * -(-bits // WORD)
 
     def _real(self, value: Fraction) -> Any:
-        real = self._hy.real
-        return real(value.numerator, self._bits) / real(value.denominator, self._bits)
+        return _real(value, self._bits)
 
     @cached_property
     def _variables(self) -> list[Any]:
         return list(self._hy.make_vars(*self._problem.state_names))
 
-    def _integrator(self, variational: Sequence[str] = (), **events: Any) -> Any:
-        hy, problem = self._hy, self._problem
-        parameters = problem.parameters
-        symbols = {name: hy.par[i] for i, name in enumerate(parameters)}
-        rates = problem.derivative(Heyoka(self._real), self._variables, symbols)
-        system: Any = list(zip(self._variables, rates, strict=True))
-        if variational:
-            named = {**dict(zip(problem.state_names, self._variables, strict=True)), **symbols}
-            chosen = [named[name] for name in variational]
-            system = hy.var_ode_sys(system, chosen, 1)
-        with self._not_kept():
-            return hy.taylor_adaptive(
-                system,
-                [self._real(value) for value in problem.start],
-                fp_type=hy.real,
-                prec=self._bits,
-                tol=self._real(Fraction(1, 2**self._bits)),
-                pars=[self._real(value) for value in parameters.values()],
-                compact_mode=True,
-                **events,
-            )
+    def _integrator(self, variational: tuple[str, ...] = (), **events: Any) -> Any:
+        """An integrator at the start; one without events is a copy of what was compiled once for the equation."""
+        problem = self._problem
+        names = tuple(problem.state_names), tuple(problem.parameters)
+        compiled = _compiled.__wrapped__ if events else _compiled
+        integrator = copy(compiled(problem.derivative, *names, self._bits, variational, **events))
+        integrator.state[: len(problem.start)] = [self._real(value) for value in problem.start]
+        integrator.pars[:] = [self._real(value) for value in problem.parameters.values()]
+        return integrator
 
     def at(self, times: Sequence[Fraction], variational: Sequence[str] = ()) -> list[tuple[Fraction, ...]]:
         """The state at each time (none negative), and after it its derivatives by the named starts and parameters."""
         moments = sorted({Fraction(0), *times})
-        integrator = self._integrator(variational)
+        integrator = self._integrator(tuple(variational))
         grid = np.array([self._real(moment) for moment in moments])
         outcome, *_, states = integrator.propagate_grid(grid)
         if outcome != self._hy.taylor_outcome.time_limit:
@@ -82,6 +75,48 @@ class Flow:
         )
         self._integrator(nt_events=[crossing]).propagate_until(self._real(Fraction(until)))
         return [time for time in crossings if time > Fraction(until) / 10**9]
+
+
+@lru_cache(maxsize=COMPILED)
+def _compiled(
+    derivative: Callable[..., Sequence[Any]],
+    state_names: tuple[str, ...],
+    parameter_names: tuple[str, ...],
+    bits: int,
+    variational: tuple[str, ...],
+    **events: Any,
+) -> Any:
+    """The integrator of an equation, its state and its parameters still to be set."""
+    from reference.compiler import hy, not_kept
+
+    variables = list(hy.make_vars(*state_names))
+    symbols = {name: hy.par[i] for i, name in enumerate(parameter_names)}
+    rates = [
+        rate if isinstance(rate, hy.expression) else hy.expression(rate)
+        for rate in derivative(Heyoka(lambda value: _real(value, bits)), variables, symbols)
+    ]
+    system: Any = list(zip(variables, rates, strict=True))
+    if variational:
+        named = {**dict(zip(state_names, variables, strict=True)), **symbols}
+        system = hy.var_ode_sys(system, [named[name] for name in variational], 1)
+    zero = _real(Fraction(0), bits)
+    with not_kept():
+        return hy.taylor_adaptive(
+            system,
+            [zero] * len(variables),
+            fp_type=hy.real,
+            prec=bits,
+            tol=_real(Fraction(1, 2**bits), bits),
+            pars=[zero] * len(symbols),
+            compact_mode=True,
+            **events,
+        )
+
+
+def _real(value: Fraction, bits: int) -> Any:
+    from reference.compiler import hy
+
+    return hy.real(value.numerator, bits) / hy.real(value.denominator, bits)
 
 
 def to_fraction(value: Any) -> Fraction:

@@ -99,6 +99,29 @@ def test_the_flow_of_the_equation_is_the_motion():
         assert abs(found[1][component] - expected[0][component]) < Fraction(1, 10**60)
 
 
+def test_flows_of_one_equation_share_what_is_compiled_and_nothing_else():
+    taylor._compiled.cache_clear()
+    pendulums = [Pendulum(2.0), Pendulum(0.5, "1.62", "2/3"), Pendulum(0, omega0=7)]
+    flows = [taylor.Flow(pendulum, bits) for pendulum, bits in zip(pendulums, (240, 250, 256), strict=True)]
+    both = [[flow.at([Fraction(3)]) for flow in order] for order in (flows, flows[::-1])]
+    assert both[0] == both[1][::-1]
+    assert taylor._compiled.cache_info().misses == 1
+    for pendulum, (state,) in zip(pendulums, both[0], strict=True):
+        assert [float(value) for value in state] == pytest.approx(pendulum.state(3).tolist(), rel=1e-15)
+
+
+def test_a_rate_may_be_a_plain_number():
+    class Fall:
+        state_names, parameters, start = ("y", "speed"), {}, (Fraction(0), Fraction(1, 3))
+
+        @staticmethod
+        def derivative(m, y, p):
+            del p
+            return y[1], m.number(Fraction(1, 3))
+
+    assert [float(x) for x in taylor.Flow(Fall, 120).at([Fraction(3)])[0]] == pytest.approx([2.5, 4 / 3], rel=1e-15)
+
+
 def test_variational_equations_start_from_the_identity():
     state = taylor.Flow(Pendulum(2.0), 240).at([Fraction(0)], ("theta",))[0]
     assert state == (2, 0, 1, 0)
