@@ -7,12 +7,19 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from compare.scoring import energy_drift, error_vs_n
+    from compare.submission.scored import score
 
-__all__ = ["energy_drift", "error_vs_n"]
+__all__ = ["energy_drift", "error_vs_n", "score"]
+
+_HOMES = {
+    "energy_drift": "compare.scoring",
+    "error_vs_n": "compare.scoring",
+    "score": "compare.submission.scored",
+}
 
 
 def __getattr__(name: str) -> Any:
     """The public functions, imported when first asked for: the command line's help needs none of them."""
-    if name in __all__:
-        return getattr(import_module("compare.scoring"), name)
+    if name in _HOMES:
+        return getattr(import_module(_HOMES[name]), name)
     raise AttributeError(f"module 'compare' has no attribute {name!r}")

@@ -37,6 +37,9 @@ def main(words: Sequence[str] | None = None) -> int:
 
 def _command(words: Sequence[str] | None = None) -> int:
     request = parse(sys.argv[1:] if words is None else words)
+    if request.command == "score":
+        _score(request)
+        return 0
     _print(_listing(request.form) if request.command == "list" else _pendulum(request))
     return 0
 
@@ -62,6 +65,15 @@ def _pendulum(request: Request) -> str:
     if results is not None and not request.quiet:
         print(f"wrote {', '.join(results.names)} into {results.target}", file=sys.stderr)
     return table.render(study, request.form, width)
+
+
+def _score(request: Request) -> None:
+    """Judge a file, and print what is found as it is found."""
+    from compare.submission.command import Submission, judged
+
+    with _progress(request.quiet) as progress:
+        for piece in judged(Submission(**request.options), progress):
+            _print(piece)
 
 
 def _study(request: Request, progress: Callable[[str], None] | None) -> Study:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
+from compare.submission import options as submission
 from compare.table import FORMATS
 from reference.names import short
 from reference.terminal import Parser, one_of
@@ -19,6 +20,7 @@ __all__ = ["COMMANDS", "Request", "parse"]
 COMMANDS = {
     "pendulum": "score integrators on the pendulum: error against N, observed order, energy drift",
     "list": "list the methods: family, order, stages, source",
+    "score": "judge a file of numbers from any code against the proven truth",
 }
 
 _OPTIONS: dict[str, tuple[str | None, str]] = {
@@ -49,7 +51,7 @@ class Request:
 
     Attributes:
         command: one of COMMANDS.
-        options: arguments of the study, only those that were given.
+        options: arguments of the study, only those that were given; or the fields of a submission.
         form: one of the table formats.
         out: a folder for the results, or None.
         plots: whether figures are drawn.
@@ -72,10 +74,12 @@ def parse(words: Sequence[str]) -> Request:
     """
     if not words:
         raise ValueError(f"no command is given; {_alternatives(tuple(COMMANDS))} is accepted.")
-    known = _parser().parse_args(words)
+    known = _parser(words).parse_args(words)
+    read: dict[str, Callable[[argparse.Namespace], dict[str, Any]]]
+    read = {"pendulum": _study_options, "score": submission.options}
     return Request(
         command=known.command,
-        options=_study_options(known) if known.command == "pendulum" else {},
+        options=read[known.command](known) if known.command in read else {},
         form=known.format,
         out=getattr(known, "out", None),
         plots=getattr(known, "plots", False),
@@ -83,12 +87,15 @@ def parse(words: Sequence[str]) -> Request:
     )
 
 
-def _parser() -> Parser:
+def _parser(words: Sequence[str] = ("score",)) -> Parser:
+    """The parser of a command line; what takes time to import is left out where the words do not need it."""
     parser = Parser(prog="python -m compare", description="Score integrators.", epilog=_EPILOG)
     commands = parser.add_subparsers(dest="command", metavar="COMMAND")
     for command, text in COMMANDS.items():
         one = commands.add_parser(command, help=text, description=text, epilog=_EPILOG)
-        for option in _ACCEPTED[command]:
+        if command == "score":
+            submission.add_options(one, with_families=words[0] == command)
+        for option in _ACCEPTED.get(command, ()):
             _add(one, option)
     return parser
 

@@ -27,7 +27,7 @@ def _run(*words: str, **options) -> subprocess.CompletedProcess:
 @pytest.mark.parametrize(
     ("words", "says"),
     [
-        ([], "pendulum or list is accepted"),
+        ([], "no command is given; pendulum, "),
         (["pendlum"], "perhaps pendulum"),
         (["--quiet", "pendulum"], "'--quiet' is unknown"),
         (["pendulum", "again"], "'again' is one too many"),

@@ -1,0 +1,1 @@
+"""Numbers from any code in any language, judged against the proven truth."""

@@ -1,0 +1,102 @@
+"""What ``python -m compare score`` does: a file judged a chunk at a time, in memory that does not grow with it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from compare.submission.columns import Columns
+from compare.submission.files import Rows
+from compare.submission.judge import CHUNK, Judge
+from compare.submission.record import Running, capped
+from compare.submission.show import csv_header, csv_rows, rendered
+from reference.at import FAMILIES, Family
+from reference.names import unknown
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator, Mapping
+
+    from reference.problem import Problem
+
+__all__ = ["Submission", "families", "judged"]
+
+
+@dataclass(frozen=True)
+class Submission:
+    """What is asked for.
+
+    Attributes:
+        file: the name of the file, "-" for the standard input.
+        family: the name of the problem's family.
+        inputs: the problem's parameters by name, as they were typed; those that were given.
+        exact: whether parameters and times are taken as written, else as the doubles that they spell.
+        columns: the file's names of the time and the state, or None for the usual ones.
+        rows: how many rows are shown at most.
+        form: text, markdown, latex, json or csv; the last shows every row.
+    """
+
+    file: str
+    family: str
+    inputs: Mapping[str, str]
+    exact: bool
+    columns: tuple[str, ...] | None
+    rows: int
+    form: str
+
+
+def families() -> tuple[Family, ...]:
+    """The families of problems with a state in time."""
+    return tuple(
+        family for family in FAMILIES if "state" in family.rows and any(i.over == "time" for i in family.inputs)
+    )
+
+
+def judged(asked: Submission, progress: Callable[[str], None] | None = None) -> Iterator[str]:
+    """Judge a file and give the answer piece by piece; ``progress`` is told how many rows are done.
+
+    Raises:
+        OSError: the file is missing or cannot be read.
+        ValueError: it, or what was asked, is not as it must be; one sentence says what is accepted.
+    """
+    problem = _problem(asked)
+    columns = Columns(("t", *problem.state_names), asked.columns)
+    rows, judge = Rows(asked.file, columns, as_written=asked.exact), Judge(problem)
+    running = Running(problem.state_names, keep=asked.rows)
+    done = 0
+    for chunk in rows.chunks(CHUNK):
+        points = judge.points(*chunk)
+        running.add(points)
+        if asked.form == "csv":
+            yield ("" if done else csv_header(problem.state_names)) + csv_rows(capped(p, judge.held) for p in points)
+        done += len(points)
+        if progress is not None:
+            progress(f"{done} rows")
+    if asked.form != "csv":
+        yield rendered(running.score(repr(problem), judge.held, rows.times, judge.notes(running)), asked.form)
+
+
+def _problem(asked: Submission) -> Problem:
+    """The problem, from the options of its family.
+
+    Raises:
+        ValueError: there is no such family, an input of it is missing or is none of its, or one is outside its range.
+    """
+    known = {family.name: family for family in families()}
+    if asked.family not in known:
+        raise ValueError(unknown("problem", asked.family, known))
+    family = known[asked.family]
+    accepted = [wanted for wanted in family.inputs if not wanted.over]
+    for name in asked.inputs:
+        if name not in {wanted.name for wanted in accepted}:
+            raise ValueError(unknown("option", f"--{name}", [f"--{wanted.name}" for wanted in accepted]))
+    given = {wanted.name: asked.inputs.get(wanted.name, wanted.default) for wanted in accepted}
+    missing = [f"--{w.name}" for w in accepted if given[w.name] is None and not w.optional]
+    if missing:
+        raise ValueError(f"{', '.join(missing)} of the {family.name} is needed.")
+    return family.problem(
+        **{
+            wanted.name: wanted.read(wanted.name, text, as_written=asked.exact)
+            for wanted in accepted
+            if (text := given[wanted.name]) is not None
+        }
+    )

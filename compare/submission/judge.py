@@ -1,0 +1,217 @@
+"""Rows of written numbers against the proven state at their exact times."""
+
+from __future__ import annotations
+
+import math
+from fractions import Fraction
+from statistics import median
+from typing import TYPE_CHECKING, Any
+
+from flint import arb, ctx
+
+from compare.submission.orbit import orbits, remark
+from compare.submission.record import Point
+from reference.arithmetic import BALL
+from reference.problem import Problem
+from reference.routes import enclosure
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Sequence
+
+    from compare.submission.orbit import Orbits, Place
+    from compare.submission.record import Running
+    from compare.submission.written import Written
+
+__all__ = ["CHUNK", "Judge"]
+
+SPARE_BITS = 64
+"""Bits of the truth beyond the last that the input can hold, so that its errors are known to a good many digits."""
+DEGREES = 180 / math.pi
+CHUNK = 1024
+"""Rows that are judged together: enough to share what they can share, few enough for any memory."""
+FIRST_ROWS = 16
+"""Rows that tell degrees from radians: a poor integrator needs some time to be 57 times wrong."""
+
+
+class Judge:
+    """A problem's truth, held against rows in the order of their times.
+
+    Attributes:
+        held: the digits that the input can hold: the most that any of its numbers so far has.
+
+    Raises:
+        TypeError: ``problem`` is no problem with a state in time.
+    """
+
+    def __init__(self, problem: Problem) -> None:
+        if not isinstance(problem, Problem) or not _has_state(problem):
+            raise TypeError(
+                f"problem is {problem!r}; a problem with a state in time, such as Pendulum(1.0), is accepted."
+            )
+        self.problem = problem
+        self.held = 0.0
+        self._units = [quantity.units for quantity in problem.row("state").quantities]
+        self._rows = 0
+        self._last: Written | None = None
+
+    def expect(self, digits: Iterable[float]) -> None:
+        """Learn the digits of numbers to come."""
+        self.held = max(self.held, max(digits, default=0.0))
+
+    def points(
+        self, times: Sequence[Written], states: Sequence[Sequence[Written]], places: Sequence[str] | None = None
+    ) -> list[Point]:
+        """Judge the next rows; their digits are not yet capped at what the input can hold.
+
+        ``places`` says where each row is, such as "line 7"; they are counted if it is None.
+
+        Raises:
+            ValueError: the times do not increase, or an angle is in degrees.
+        """
+        self._refuse_disorder(times, places or [f"row {self._rows + i}" for i in range(1, len(times) + 1)])
+        self.expect(number.digits for state in states for number in state)
+        bits = math.ceil(self.held * math.log2(10)) + SPARE_BITS
+        instants = [t.value for t in times]
+        truths = enclosure.balls(self.problem, "state", instants, bits)
+        if not self._rows:
+            self._refuse_degrees(states, truths)
+        with ctx.workprec(bits + SPARE_BITS + self.problem.working_bits(instants)):
+            bench = _Bench(self.problem, bits)
+            found = [
+                bench.point(self._rows + i, t, state, truth)
+                for i, (t, state, truth) in enumerate(zip(times, states, truths, strict=True), start=1)
+            ]
+        self._rows += len(found)
+        return found
+
+    def notes(self, running: Running) -> tuple[str, ...]:
+        """What could not be judged, in sentences."""
+        lacking, lost = remark(self.problem), running.lost
+        if lost is None or (lacking and self._phaseless):
+            return (lacking,) if lacking else ()
+        sentence = (
+            f"Row {lost.number}, t = {lost.t}, is the first whose state is on no orbit of the exact motion's kind: "
+            "it has no phase."
+        )
+        return (lacking, sentence) if lacking else (sentence,)
+
+    @property
+    def _phaseless(self) -> bool:
+        """Whether the exact motion has no phase."""
+        found = orbits(self.problem)
+        return found is None or found.truth(Fraction(0)).phase is None
+
+    def _refuse_disorder(self, times: Sequence[Written], places: Sequence[str]) -> None:
+        for t, place in zip(times, places, strict=True):
+            if self._last is not None and t.value <= self._last.value:
+                fault = "is repeated" if t.value == self._last.value else f"comes after t = {self._last.text}"
+                raise ValueError(f"t = {t.text} in {place} {fault}; increasing times are accepted.")
+            self._last = t
+
+    def _refuse_degrees(self, states: Sequence[Sequence[Written]], truths: Sequence[Sequence[arb]]) -> None:
+        """Raise where a number in radians is wrong by the factor that degrees would make it wrong by."""
+        for i, (name, units) in enumerate(zip(self.problem.state_names, self._units, strict=True)):
+            pairs = [(float(y[i].value), float(x[i])) for y, x in zip(states[:FIRST_ROWS], truths, strict=False)]
+            size = max(abs(truth) for _, truth in pairs)
+            ratios = [given / truth for given, truth in pairs if abs(truth) > size / 8]
+            if units.startswith("rad") and ratios and abs(median(ratios) / DEGREES - 1) < 0.02:
+                raise ValueError(
+                    f"{name} is {median(ratios):.1f} times the truth, as an angle in degrees would be; {units} is "
+                    "accepted, so multiply by pi/180."
+                )
+
+
+def _has_state(problem: Problem) -> bool:
+    return any(row.name == "state" and row.over == "time" for row in problem.rows)
+
+
+class _Bench:
+    """What the rows of a chunk share, at the working precision in force: the truth is good to ``bits`` bits."""
+
+    def __init__(self, problem: Problem, bits: int) -> None:
+        self._problem = problem
+        self._parameters = {name: BALL.number(value) for name, value in problem.parameters.items()}
+        self._orbits: Orbits | None = orbits(problem)
+        self._resolution = arb(2) ** -bits
+        self._start: arb | None = self._invariant([BALL.number(value) for value in problem.start])
+
+    def point(self, number: int, t: Written, state: Sequence[Written], truth: Sequence[arb]) -> Point:
+        """Judge one row."""
+        y = [BALL.number(given.value) for given in state]
+        errors = [given - true for given, true in zip(y, truth, strict=True)]
+        decimals = [self._digits(*pair) for pair in zip(errors, truth, strict=True)]
+        phase, amplitude = self._orbital(t.value, y)
+        floats = tuple(float(error) for error in errors)
+        return Point(
+            number=number,
+            t=t.text,
+            values=tuple(given.text for given in state),
+            digits=min(map(_correct, state, decimals, errors)),
+            error=max(abs(error) for error in floats),
+            errors=floats,
+            first_wrong=tuple(map(_first_wrong, state, decimals, errors)),
+            phase_error=phase,
+            amplitude_error=amplitude,
+            energy_error=self._energy_error(y),
+        )
+
+    def _digits(self, error: arb, truth: arb) -> float:
+        """-log10 |error/truth|: infinite where the truth is met as far as it is known."""
+        size = abs(error)
+        if size <= self._resolution * abs(truth) or error.is_zero():
+            return math.inf
+        return -_log10(size / abs(truth)) if not truth.is_zero() else 0.0
+
+    def _orbital(self, t: Fraction, y: Sequence[arb]) -> tuple[float, float]:
+        """(phase error in rad, amplitude error in rad)."""
+        if self._orbits is None:
+            return math.nan, math.nan
+        here: Place = self._orbits.place(y)
+        true: Place = self._orbits.truth(t)
+        phase = amplitude = math.nan
+        if here.phase is not None and true.phase is not None:
+            periods = here.phase - true.phase
+            phase = float(2 * arb.pi() * (periods - (periods + arb(0.5)).mid().floor()))
+        if here.amplitude is not None and true.amplitude is not None:
+            amplitude = float(here.amplitude - true.amplitude)
+        return phase, amplitude
+
+    def _energy_error(self, y: Sequence[arb]) -> float:
+        invariant = self._invariant(y)
+        if invariant is None or self._start is None:
+            return math.nan
+        change = invariant - self._start
+        return float(change if self._start.contains(0) else change / self._start)
+
+    def _invariant(self, y: Sequence[arb]) -> arb | None:
+        try:
+            found: Any = self._problem.invariant(BALL, y, self._parameters)
+        except NotImplementedError:
+            return None
+        return arb(found)
+
+
+def _log10(ball: arb) -> float:
+    """log10 of a positive ball, of any size."""
+    return float(ball.mid().log() / arb(10).log())
+
+
+def _correct(given: Written, digits: float, error: arb) -> float:
+    """The digits, or all that are written where the last of them is right too."""
+    if given.last is not None and abs(error) <= arb(10) ** given.last / 2:
+        return max(digits, given.digits)
+    return max(digits, 0.0)
+
+
+def _first_wrong(given: Written, digits: float, error: arb) -> int | None:
+    """The place of the first significant digit of which half a unit is less than the error; None beyond the last."""
+    if math.isinf(digits) or (given.last is None and digits >= given.digits):
+        return None
+    wrong = math.ceil(_log10(2 * abs(error))) - 1
+    if given.last is not None and wrong < given.last:
+        return None
+    if given.last is not None:
+        leading = given.last + max(int(given.digits), 1) - 1
+    else:
+        leading = math.floor(_log10(abs(BALL.number(given.value)))) if given.value else wrong
+    return max(leading - wrong, 0) + 1

@@ -1,0 +1,127 @@
+"""A number as it was handed in: its exact value, and how many digits its format can hold.
+
+A decimal is exact as written, whatever its length; a floating-point number at its binary value.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from decimal import Decimal
+from fractions import Fraction
+from numbers import Rational
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from reference.exact import MAX_DIGITS, exact
+from reference.names import short
+
+__all__ = ["ROUND_TRIP_DIGITS", "Written", "of_decimal", "of_value"]
+
+LOG10_2 = math.log10(2)
+BINARY64_DIGITS = 53 * LOG10_2
+ROUND_TRIP_DIGITS = 17
+"""Significant decimal digits that tell any two binary64 numbers apart."""
+DECIMAL = re.compile(r"([+-]?)(\d*)(?:\.(\d*))?(?:[eEdDqQ]([+-]?\d+))?", re.ASCII)
+"""A decimal; Fortran writes its exponents with D or Q where they are of double or quadruple precision."""
+NOT_FINITE = re.compile(r"[+-]?(nan|inf|infinity|1\.#(nan|inf|ind|qnan))(\(.*\))?", re.IGNORECASE)
+DECIMAL_COMMA = re.compile(r"[+-]?\d+,\d+(e[+-]?\d+)?", re.IGNORECASE)
+ACCEPTED = "a number such as 0.5, -1.25e-3 or 1D0 is accepted"
+
+
+class Written(NamedTuple):
+    """One number as it was handed in.
+
+    Attributes:
+        value: the number, exactly.
+        text: how it is shown.
+        digits: significant decimal digits: those written, or those that the binary format can hold.
+        last: power of ten of the last digit of a decimal; None for a binary or rational number, which has none.
+    """
+
+    value: Fraction
+    text: str
+    digits: float
+    last: int | None = None
+
+
+def of_decimal(text: str, name: str = "value") -> Written:
+    """Return the decimal that ``text`` spells.
+
+    Raises:
+        ValueError: it spells none, or one that is not finite or beyond the limits of an input.
+    """
+    word = text.strip()
+    match = DECIMAL.fullmatch(word)
+    digits = match[2] + (match[3] or "") if match else ""
+    if match is None or not digits:
+        raise ValueError(_refusal(word, name))
+    exponent = match[4] or "0"
+    last = int(exponent[:10]) - len(match[3] or "")  # ten characters tell an exponent that is beyond the limit
+    if len(digits) > MAX_DIGITS or abs(last) > MAX_DIGITS:
+        raise ValueError(f"{name} is '{short(word)}', beyond the limit of {MAX_DIGITS} digits.")
+    mantissa = int(digits) * (-1 if match[1] == "-" else 1)
+    value = Fraction(mantissa * 10**last) if last >= 0 else Fraction(mantissa, 10**-last)
+    return Written(value, word, len(digits.lstrip("0")), last)
+
+
+def _refusal(word: str, name: str) -> str:
+    if NOT_FINITE.fullmatch(word):
+        return f"{name} is {short(word)}, which is not finite; {ACCEPTED}."
+    if not word:
+        return f"{name} is empty; {ACCEPTED}."
+    if DECIMAL_COMMA.fullmatch(word):
+        return f"{name} is '{short(word)}', with a decimal comma; a decimal point is accepted."
+    return f"{name} is '{short(word)}', which is not a number; {ACCEPTED}."
+
+
+def of_value(value: Any, name: str = "value") -> Written:
+    """Return what a Python object stands for: a string, Decimal, Fraction, integer or floating-point number.
+
+    Raises:
+        ValueError: it is not finite, or a string that spells no number.
+        TypeError: it is no real number.
+    """
+    if type(value) is float and math.isfinite(value):
+        return Written(Fraction(value), repr(value), BINARY64_DIGITS)
+    if isinstance(value, str) or (isinstance(value, Decimal) and value.is_finite()):
+        return of_decimal(str(value), name)
+    if hasattr(value, "man_exp"):
+        return _of_mpmath(value, name)
+    if type(value).__module__.startswith("heyoka"):
+        return _of_heyoka(value, name)
+    return _of_standard(value, name)
+
+
+def _of_standard(value: Any, name: str) -> Written:
+    """Python's and NumPy's own numbers."""
+    found = exact(value, name)
+    if isinstance(value, np.floating):
+        return Written(found, str(value), (np.finfo(type(value)).nmant + 1) * LOG10_2)
+    if isinstance(value, Rational):
+        bits = abs(found.numerator).bit_length() + found.denominator.bit_length()
+        return Written(found, str(found), max(bits * LOG10_2, BINARY64_DIGITS))
+    return Written(found, repr(float(value)), BINARY64_DIGITS)
+
+
+def _of_mpmath(value: Any, name: str) -> Written:
+    """A number of mpmath's, of the digits that its working precision or its own mantissa has."""
+    from mpmath import mp
+
+    if not mp.isfinite(value):
+        raise ValueError(f"{name} is {value}, which is not finite; {ACCEPTED}.")
+    mantissa, exponent = (int(part) for part in value.man_exp)
+    digits = max(abs(mantissa).bit_length(), mp.prec) * LOG10_2
+    return Written(mantissa * Fraction(2) ** exponent, mp.nstr(value, math.ceil(digits) + 1), digits)
+
+
+def _of_heyoka(value: Any, name: str) -> Written:
+    """A binary128 or MPFR number: the sum of doubles, each the nearest to what those before it leave."""
+    if not math.isfinite(float(value)):
+        raise ValueError(f"{name} is {value}, which is not finite; {ACCEPTED}.")
+    found, rest = Fraction(0), value
+    while rest != 0:
+        limb = float(rest)
+        found, rest = found + Fraction(limb), rest - limb
+    return Written(found, str(value), getattr(value, "prec", 113) * LOG10_2)
