@@ -2,18 +2,19 @@
 
 from __future__ import annotations
 
+from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
-from flint import acb, arb, fmpq
+from flint import acb, arb, arb_series, ctx, fmpq
 
 from reference.calculus import ball_integral, ball_root
 from reference.elliptic import BallElliptic
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Iterator
     from fractions import Fraction
 
-__all__ = ["BALL", "Ball", "ComplexBall"]
+__all__ = ["BALL", "SERIES", "Ball", "BallSeries", "ComplexBall"]
 
 
 class Ball:
@@ -173,4 +174,79 @@ class ComplexBall:
         return not self.analytic or not x.imag.contains(0) or bool(abs(x.real) < 1)
 
 
+class BallSeries:
+    """Arb's power series with balls as coefficients; a constant stays a ball."""
+
+    @staticmethod
+    @contextmanager
+    def of_length(terms: int) -> Iterator[None]:
+        """Series are known up to this many terms."""
+        before = ctx.cap
+        ctx.cap = terms
+        try:
+            yield
+        finally:
+            ctx.cap = before
+
+    @staticmethod
+    def number(value: Fraction) -> arb:
+        return Ball.number(value)
+
+    @staticmethod
+    def pi() -> arb:
+        return arb.pi()
+
+    @staticmethod
+    def sqrt(x: Any) -> Any:
+        return x.sqrt()
+
+    @staticmethod
+    def exp(x: Any) -> Any:
+        return x.exp()
+
+    @staticmethod
+    def log(x: Any) -> Any:
+        return x.log()
+
+    @staticmethod
+    def sin(x: Any) -> Any:
+        return x.sin()
+
+    @staticmethod
+    def cos(x: Any) -> Any:
+        return x.cos()
+
+    @staticmethod
+    def tan(x: Any) -> Any:
+        return x.tan()
+
+    @staticmethod
+    def asin(x: Any) -> Any:
+        return x.asin()
+
+    @staticmethod
+    def acos(x: Any) -> Any:
+        return x.acos()
+
+    @staticmethod
+    def atan(x: Any) -> Any:
+        return x.atan()
+
+    @staticmethod
+    def sinh(x: Any) -> Any:
+        return (x.exp() - (-x).exp()) / 2
+
+    @staticmethod
+    def cosh(x: Any) -> Any:
+        return (x.exp() + (-x).exp()) / 2
+
+    def tanh(self, x: Any) -> Any:
+        return self.sinh(x) / self.cosh(x)
+
+    @staticmethod
+    def power(x: Any, exponent: Fraction) -> Any:
+        return x ** Ball.number(exponent) if isinstance(x, arb_series) else Ball.power(x, exponent)
+
+
 BALL = Ball()
+SERIES = BallSeries()

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 from flint import acb, arb, ctx
 from mpmath import mp
 
-from reference.dual import DualArithmetic
+from reference.dual import with_slope
 from reference.routes import quadrature
 
 if TYPE_CHECKING:
@@ -51,7 +51,9 @@ def ball_root(m: Any, function: Callable[[Any, Any], Any], low: Any, high: Any) 
 
     Newton's method, kept inside the bracket, finds a point; the interval Newton step about it proves the zero.
     """
-    both = _with_slope(m, function)
+
+    def both(x: arb) -> tuple[Any, Any]:
+        return with_slope(m, function, x)
 
     def point(x: arb) -> tuple[arb, arb]:
         """A value that cannot be told from zero is as near to it as this precision comes."""
@@ -78,16 +80,6 @@ def enclosed_zero(x: arb, value: arb, slope: arb, slope_over: Callable[[arb], ar
             return image
         radius = 16 * radius
     return arb.nan()
-
-
-def _with_slope(m: Any, function: Callable[[Any, Any], Any]) -> Callable[[Any], tuple[Any, Any]]:
-    slopes = DualArithmetic(m, 1)
-
-    def both(x: Any) -> tuple[Any, Any]:
-        found = function(slopes, slopes.variable(x, 0))
-        return found.value, found.slopes[0]
-
-    return both
 
 
 def _newton(both: Callable[[Any], tuple[Any, Any]], low: Any, high: Any, bits: int, point: Callable[[Any], Any]) -> Any:
@@ -120,7 +112,7 @@ def mpmath_root(m: Any, function: Callable[[Any, Any], Any], low: Any, high: Any
     """
     bits = mp.prec
     with mp.extraprec(20):
-        found = _newton(_with_slope(m, function), mp.mpf(low), mp.mpf(high), mp.prec, mp.mpf)
+        found = _newton(lambda x: with_slope(m, function, x), mp.mpf(low), mp.mpf(high), mp.prec, mp.mpf)
         near = abs(found) * mp.mpf(2) ** (10 - bits)
         if mp.sign(function(m, found - near)) == mp.sign(function(m, found + near)):
             raise ArithmeticError(f"no zero was found between {mp.nstr(low, 5)} and {mp.nstr(high, 5)}.")

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
     from reference.arithmetic import EllipticArithmetic
 
-__all__ = ["Dual", "DualArithmetic"]
+__all__ = ["Dual", "DualArithmetic", "with_slope"]
 
 
 class Dual:
@@ -165,6 +165,13 @@ class DualArithmetic:
 
     def elliptic(self, k: Dual, kc: Dual) -> DualElliptic:
         return DualElliptic(self.m.elliptic(k.value, kc.value), k, kc)
+
+
+def with_slope(m: Any, function: Callable[[Any, Any], Any], x: Any) -> tuple[Any, Any]:
+    """function(m, x) and its derivative at x."""
+    duals = DualArithmetic(m, 1)
+    found = function(duals, duals.variable(x, 0))
+    return (found.value, found.slopes[0]) if isinstance(found, Dual) else (found, m.number(Fraction(0)))
 
 
 class DualElliptic:

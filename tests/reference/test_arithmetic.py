@@ -6,12 +6,13 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
-from flint import acb, arb, ctx
+from flint import acb, arb, arb_series, ctx
 from mpmath import mp
 
 from reference.arithmetic import BALL, MPMATH, NUMPY, ComplexBall, Heyoka
+from reference.balls import SERIES
 from reference.compiler import hy
-from reference.dual import DualArithmetic
+from reference.dual import DualArithmetic, with_slope
 
 FUNCTIONS = ("sin", "cos", "tan", "asin", "acos", "atan", "sinh", "cosh", "tanh", "exp", "log", "sqrt")
 POINT = Fraction(3, 8)
@@ -105,3 +106,32 @@ def test_on_a_branch_cut_there_is_no_analytic_function(name, on_the_cut, beside_
 def test_a_cut_is_avoided_by_powers_too():
     assert not ComplexBall(analytic=True).power(acb(-2), Fraction(1, 3)).is_finite()
     assert ComplexBall(analytic=True).power(acb(-2, 1), Fraction(1, 3)).is_finite()
+
+
+@pytest.mark.parametrize("name", FUNCTIONS)
+def test_a_series_has_the_derivatives_for_coefficients(name):
+    before = ctx.cap
+    with ctx.workprec(200), mp.workprec(200):
+        with SERIES.of_length(6):
+            found = getattr(SERIES, name)(arb_series([arb(3) / 8, arb(1)])).coeffs()
+        with mp.workprec(400):
+            expected = mp.taylor(getattr(mp, name), mp.mpf(3) / 8, 5)
+        assert len(found) == 6
+        for ball, value in zip(found, expected, strict=True):
+            assert abs(mp.mpf(ball.mid().str(70, radius=False)) - value) < mp.mpf(2) ** -170
+        constant = getattr(SERIES, name)(SERIES.number(POINT))
+        assert constant.overlaps(found[0])
+    assert ctx.cap == before
+
+
+def test_a_rational_power_of_a_series():
+    with ctx.workprec(200), SERIES.of_length(4):
+        third = SERIES.power(arb_series([arb(8), arb(1)]), Fraction(1, 3))
+        for found, value in zip((third * third * third).coeffs(), (8, 1, 0, 0), strict=True):
+            assert found.contains(value)
+        assert SERIES.power(arb(8), Fraction(1, 3)).overlaps(arb(2))
+
+
+def test_a_slope_of_a_constant_is_zero():
+    assert with_slope(NUMPY, lambda _m, _x: 3.0, 0.5) == (3.0, 0.0)
+    assert with_slope(NUMPY, lambda m, x: m.exp(x) * x, 0.0) == (0.0, 1.0)
