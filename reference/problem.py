@@ -49,13 +49,15 @@ class Row:
     """Quantities that are computed together, and what they are a function of.
 
     ``over`` is "once", "index" (0, 1, 2, ...) or the name of an exact real argument, such as "time"; ``lacks`` pairs
-    each route that cannot give the row with the reason.
+    each route that cannot give the row with the reason; ``max_bits`` is the working precision at which a proof is given
+    up, lower where the row takes an integral.
     """
 
     name: str
     quantities: tuple[Quantity, ...]
     over: str
     lacks: tuple[tuple[str, str], ...] = ()
+    max_bits: int = MAX_BITS
 
 
 class Solution(Protocol):
@@ -97,13 +99,11 @@ class Problem:
         """The exact initial state."""
         raise NotImplementedError
 
-    @classmethod
-    def derivative(cls, m: Arithmetic, y: Sequence[Any], p: dict[str, Any]) -> tuple[Any, ...]:
+    def derivative(self, m: Arithmetic, y: Sequence[Any], p: dict[str, Any]) -> tuple[Any, ...]:
         """dy/dt as a function of the state and the parameters, in any arithmetic."""
         raise NotImplementedError
 
-    @staticmethod
-    def invariant(m: Arithmetic, y: Sequence[Any], p: dict[str, Any]) -> Any:
+    def invariant(self, m: Arithmetic, y: Sequence[Any], p: dict[str, Any]) -> Any:
         """A conserved quantity that is zero at rest and positive elsewhere, free of cancellation."""
         raise NotImplementedError
 
@@ -209,10 +209,19 @@ class Problem:
             ValueError: ``t`` is empty or not finite, or ``limbs`` is not a positive integer.
             WorkBoundError: a value could not be decided within the bound on the working precision.
         """
-        limbs = positive(limbs, "limbs")
-        times, shape = exact_array(t, "t")
-        found = self.values("state", times, limbs)
-        found = found.reshape(*shape, len(self.state_names), limbs)
+        return self.along("state", t, limbs)
+
+    def along(self, row: str, arguments: Any, limbs: int = 1) -> np.ndarray:
+        """A row at exact arguments of any shape, as ``state`` gives it: the last axis is of the row's quantities.
+
+        Raises:
+            KeyError: there is no such row.
+            ValueError: ``arguments`` is empty, not finite or out of range, or ``limbs`` is not a positive integer.
+            WorkBoundError: a value could not be decided within the bound on the working precision.
+        """
+        asked, limbs = self.row(row), positive(limbs, "limbs")
+        numbers, shape = exact_array(arguments, "t" if asked.over == "time" else asked.over)
+        found = self.values(row, numbers, limbs).reshape(*shape, len(asked.quantities), limbs)
         return found[..., 0] if limbs == 1 else found
 
 

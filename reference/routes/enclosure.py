@@ -44,6 +44,7 @@ def decide(
     rational = [problem.exact_row(row, argument) for argument in arguments]
     pending = [i for i, known in enumerate(rational) if known is None or None in known]
     start = bits + GUARD_BITS + problem.working_bits([arguments[i] for i in pending])
+    bound = min(problem.max_bits, problem.row(row).max_bits)
 
     def answer(value: Any) -> Answer | None:
         return of_ball(value) if isinstance(value, arb) else of_exact(value)
@@ -57,7 +58,7 @@ def decide(
 
     answers: dict[int, list[Any]] = {}
     with ctx.workprec(start):
-        bounded = charted and start <= problem.max_bits
+        bounded = charted and start <= bound
         chart = problem.chart(row, len(pending), bits + CHART_BITS) if bounded else None
         for i, values in zip(pending, by(chart, pending), strict=True) if chart else ():
             found = [answer(value) for value in values]
@@ -65,7 +66,7 @@ def decide(
                 answers[i] = found
     rest = [i for i in pending if i not in answers]
     what = f"{row} of {problem!r}"
-    proven = ziv(enclose, answer, len(rest), start, what, problem.max_bits) if rest else []
+    proven = ziv(enclose, answer, len(rest), start, what, bound) if rest else []
     answers.update(zip(rest, proven, strict=True))
     return [
         answers[i] if known is None or i in answers else [of_exact(value) for value in known if value is not None]

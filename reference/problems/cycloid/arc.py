@@ -1,0 +1,133 @@
+"""The cycloid as a curve, given by its radius: x as a function of the depth, and point by angle."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import TYPE_CHECKING, Any, ClassVar
+
+from mpmath import mp
+
+from reference.arithmetic import MPMATH, Arithmetic, EllipticArithmetic
+from reference.exact import as_number, exact
+from reference.problem import ClosedForm, Problem, Row
+from reference.problems.cycloid.equations import point_below_cusp, run
+from reference.problems.cycloid.quantities import CURVE_ROWS, accept, exponent, positive_number
+from reference.problems.cycloid.taylor import TaylorArc
+from reference.routes import quadrature
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+__all__ = ["CycloidArc"]
+
+ZERO = Fraction(0)
+TAYLOR_RADIANS = 4000
+
+
+class Curve(ClosedForm):
+    """x = R (theta - sin theta), y = R (1 - cos theta), sin^2(theta/2) = y/(2 R)."""
+
+    def __init__(self, m: EllipticArithmetic, radius: Fraction) -> None:
+        self.m: EllipticArithmetic = m
+        self.exact_radius, self.radius = radius, m.number(radius)
+
+    def rows(self, row: str, arguments: Sequence[Any]) -> list[tuple[Any, ...]]:
+        """Depths are not rounded before 2 R - y is taken, which may be zero."""
+        return [self.state(y) for y in arguments] if row == "state" else super().rows(row, arguments)
+
+    def state(self, y: Fraction) -> tuple[Any, Any]:
+        """(x, y) at the depth y."""
+        m, part = self.m, y / (2 * self.exact_radius)
+        half = m.atan2(m.sqrt(m.number(part)), m.sqrt(m.number(1 - part)))
+        return point_below_cusp(m, 2 * half, self.radius)
+
+    def curve(self, angle: Any) -> tuple[Any, Any]:
+        """(x, y) at an angle."""
+        return point_below_cusp(self.m, angle, self.radius)
+
+
+class QuadratureCurve(Curve):
+    """x as the integral of dx/dy, with y = 2 R sin^2(b): of 4 R sin^2(b) db."""
+
+    def state(self, y: Fraction) -> tuple[Any, Any]:
+        half = mp.asin(mp.sqrt(self.m.number(y / (2 * self.exact_radius))))
+        mean = quadrature.integral(lambda v: (v * mp.sinc(half * v)) ** 2, mp.mpf(0), mp.mpf(1))
+        return 4 * self.radius * half**3 * mean, self.m.number(y)
+
+    def curve(self, angle: Any) -> tuple[Any, Any]:
+        return self.radius * (angle - mp.sin(angle)), self.radius * (1 - mp.cos(angle))
+
+
+@dataclass(frozen=True, repr=False)
+class CycloidArc(Problem):
+    """The cycloid from its cusp, dx/dy = sqrt(y/(2 R - y)), y downward.
+
+    Its independent variable is the depth y, "height" in the thesis: ``state(y)`` is (x, y), for 0 <= y <= 2 R.  Of the
+    numbers x for rational y only x(0) = 0 is rational (Lindemann 1882: an angle and its cosine are not both algebraic).
+
+    Args:
+        radius: R in m, positive; exact.
+
+    Raises:
+        ValueError: the radius is not positive or not finite.
+        TypeError: it is no real number.
+    """
+
+    radius: Fraction
+
+    name: ClassVar[str] = "cycloid arc"
+    rows: ClassVar[tuple[Row, ...]] = CURVE_ROWS
+    state_names: ClassVar[tuple[str, ...]] = ("x", "y")
+
+    def __init__(self, radius: Any = 1) -> None:
+        object.__setattr__(self, "radius", exact(radius, "radius"))
+        positive_number("radius", self.radius)
+
+    def __repr__(self) -> str:
+        return f"CycloidArc(radius={as_number(self.radius)!r})"
+
+    @property
+    def parameters(self) -> dict[str, Fraction]:
+        return {"radius": self.radius}
+
+    @property
+    def start(self) -> tuple[Fraction, ...]:
+        return ZERO, ZERO
+
+    @classmethod
+    def derivative(cls, m: Arithmetic, y: Sequence[Any], p: dict[str, Any]) -> tuple[Any, ...]:
+        """d(x, y)/dy = (sqrt(y/(2 R - y)), 1), with a square root's singularity at both ends."""
+        return run(m, y[1], p["radius"]), m.number(Fraction(1))
+
+    def closed_form(self, m: EllipticArithmetic) -> Curve:
+        """The closed form in balls or in mpmath."""
+        return Curve(m, self.radius)
+
+    def quadrature_form(self) -> Curve:
+        """The integral of dx/dy, by mpmath."""
+        return QuadratureCurve(MPMATH, self.radius)
+
+    def taylor_form(self, bits: int) -> TaylorArc:
+        """The flow of a bead in units of the radius."""
+        return TaylorArc(self, bits)
+
+    def within_taylor(self, row: str, arguments: Sequence[Any]) -> bool:
+        """Whether every angle lies in 0 <= theta <= TAYLOR_RADIANS; every height does."""
+        return row == "state" or all(0 <= angle <= TAYLOR_RADIANS for angle in arguments)
+
+    def exact_row(self, row: str, argument: Any) -> tuple[Fraction | None, ...] | None:
+        """The cusp, and the depth itself.
+
+        Raises:
+            ValueError: the depth is not within [0, 2 R].
+        """
+        if row == "state":
+            accept("height", argument, ZERO, 2 * self.radius)
+        if argument == 0:
+            return ZERO, ZERO
+        return (None, argument) if row == "state" else None
+
+    def working_bits(self, arguments: Sequence[Any]) -> int:
+        sizes = [abs(a) * scale for a in arguments if a for scale in (1, 1 / self.radius)]
+        return max((2 * max(0, -exponent(size)) + max(0, exponent(size)) for size in sizes), default=0)

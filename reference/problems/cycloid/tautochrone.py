@@ -1,0 +1,268 @@
+"""The tautochrone, Huygens' pendulum, as a problem: by its angle, and by its arc length."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cached_property
+from typing import TYPE_CHECKING, Any, ClassVar
+
+from mpmath import mp
+
+from reference.arithmetic import BALL, MPMATH, Arithmetic, EllipticArithmetic
+from reference.exact import as_number, exact
+from reference.limbs import Interval, interval, ziv
+from reference.problem import Problem, Row, SeparableProblem
+from reference.problems.cycloid.equations import (
+    angular_acceleration,
+    arc_acceleration,
+    arc_energy,
+    arc_frequency,
+    swing_energy,
+)
+from reference.problems.cycloid.quantities import PENDULUM_ROWS, SWING_ROWS, exponent, positive_number
+from reference.problems.cycloid.swing import ArcSwing, QuadratureArcSwing, QuadratureSwing, Swing
+from reference.problems.cycloid.taylor import TaylorSwing
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
+
+    from flint import arb
+
+    from reference.certify import Certified
+
+__all__ = ["CycloidalPendulum", "Swinging", "Tautochrone"]
+
+DECISION_BITS = 128
+TAYLOR_WORK = 1000
+"""The Taylor route serves times up to w t (1 - log2 cos(angle/2)) = TAYLOR_WORK: near a cusp its steps are short."""
+ZERO = Fraction(0)
+
+
+class Swinging(Problem):
+    """What the angle and the arc length have in common."""
+
+    radius: Fraction
+    g: Fraction
+
+    @property
+    def parameters(self) -> dict[str, Fraction]:
+        return {"radius": self.radius, "g": self.g}
+
+    @property
+    def cusp_bits(self) -> int:
+        """About -log2 of the distance of the start's angle from the cusp."""
+        return 0
+
+    @property
+    def rest_bits(self) -> int:
+        """About -log2 of the distance of the start from rest, which heyoka's absolute tolerance must resolve."""
+        return max(0, 1 - exponent(abs(self.start[0])))
+
+    def quadrature_form(self) -> Swing | ArcSwing:
+        """The closed form in mpmath, with the times by an integral."""
+        raise NotImplementedError
+
+    def frequency(self) -> float:
+        """w = sqrt(g/(4 R)) in rad/s."""
+        return float(arc_frequency(MPMATH, MPMATH.number(self.radius), MPMATH.number(self.g)))
+
+    def taylor_form(self, bits: int) -> TaylorSwing:
+        """The flow of the equation of motion."""
+        return TaylorSwing(self, bits)
+
+    def within_taylor(self, row: str, arguments: Sequence[Any]) -> bool:
+        """Whether every time lies in 0 <= t, w t (1 + cusp_bits) <= TAYLOR_WORK; the rest is always in reach."""
+        if self.row(row).over != "time":
+            return True
+        latest = Fraction(TAYLOR_WORK / (1 + self.cusp_bits) / self.frequency())
+        return all(0 <= t <= latest for t in arguments)
+
+    def exact_row(self, row: str, argument: Any) -> tuple[Fraction, ...] | None:
+        return self.start if row == "state" and argument == 0 else None
+
+    def working_bits(self, arguments: Sequence[Any]) -> int:
+        times = [abs(t) for t in arguments if t is not None]
+        turns = max(times, default=ZERO) * (1 + self.g / self.radius)
+        return int(turns).bit_length() + 2 * self.cusp_bits + self.rest_bits
+
+    def descent_time(self) -> Certified:
+        """pi sqrt(R/g) in s: from every start to the bottom."""
+        return self.certified("descent_time")
+
+    def period(self) -> Certified:
+        """4 pi sqrt(R/g) in s."""
+        return self.certified("period")
+
+    def energy(self) -> Certified:
+        """Kinetic and potential energy per mass above rest at the bottom, in m^2/s^2."""
+        return self.certified("energy")
+
+
+@dataclass(frozen=True, repr=False)
+class Tautochrone(Swinging):
+    """A bead released from rest on the cycloid x = R (theta + sin theta), height R (1 - cos theta).
+
+    It is at the bottom after pi sqrt(R/g), wherever it starts: 2 asin(sin(angle/2) cos(sqrt(g/(4 R)) t)) is the angle.
+    By the theorem of Lindemann and Weierstrass neither angle, velocity nor position is rational, but at the start.
+
+    Args:
+        angle: theta at the start in rad, 0 < |angle| < pi.
+        radius: R of the rolling circle in m, positive.
+        g: acceleration of gravity in m/s^2, positive.
+
+    Each is exact: a float at its binary64 value, a string or Fraction as the rational it spells.
+
+    Raises:
+        ValueError: a parameter is outside its range or not finite.
+        TypeError: a parameter is no real number.
+    """
+
+    angle: Fraction
+    radius: Fraction
+    g: Fraction
+
+    name: ClassVar[str] = "tautochrone"
+    rows: ClassVar[tuple[Row, ...]] = SWING_ROWS
+    state_names: ClassVar[tuple[str, ...]] = ("angle", "angular_velocity")
+
+    def __init__(self, angle: Any, radius: Any = 1.0, g: Any = 9.81) -> None:
+        for name, value in (("angle", angle), ("radius", radius), ("g", g)):
+            object.__setattr__(self, name, exact(value, name))
+        if self.angle == 0 or self._below_cusp < 0:
+            raise ValueError(f"angle is {as_number(self.angle)}; an angle with 0 < |angle| < pi is accepted.")
+        for name in ("radius", "g"):
+            positive_number(name, getattr(self, name))
+
+    def __repr__(self) -> str:
+        angle, radius, g = (as_number(value) for value in (self.angle, self.radius, self.g))
+        return f"Tautochrone(angle={angle!r}, radius={radius!r}, g={g!r})"
+
+    @cached_property
+    def _below_cusp(self) -> Fraction:
+        """pi - |angle|, to some digits and certainly of its sign."""
+
+        def told(ball: arb) -> Interval | None:
+            return None if ball.contains(0) else interval(ball)
+
+        def gap(_rows: Sequence[int]) -> list[list[arb]]:
+            return [[BALL.pi() - BALL.number(abs(self.angle))]]
+
+        what = f"the sign of pi - {as_number(abs(self.angle))}"
+        (((low, _, scale),),) = ziv(gap, told, 1, DECISION_BITS, what)
+        return low * Fraction(2) ** scale
+
+    @property
+    def start(self) -> tuple[Fraction, ...]:
+        return self.angle, ZERO
+
+    @classmethod
+    def derivative(cls, m: Arithmetic, y: Sequence[Any], p: dict[str, Any]) -> tuple[Any, ...]:
+        """theta' = omega, omega' = tan(theta/2) (omega^2/2 - g/(2 R))."""
+        return y[1], angular_acceleration(m, y[0], y[1], p["radius"], p["g"])
+
+    @staticmethod
+    def invariant(m: Arithmetic, y: Sequence[Any], p: dict[str, Any]) -> Any:
+        """The energy per mass above rest at the bottom, in m^2/s^2."""
+        return swing_energy(m, y[0], y[1], p["radius"], p["g"])
+
+    def rate(self) -> float:
+        """2 w/cos(angle/2): it bounds |d(omega')/d(omega)| and the root of |d(omega')/d(theta)| over the motion."""
+        with mp.workprec(64 + 2 * self.cusp_bits):
+            return 2 * self.frequency() / float(mp.cos(MPMATH.number(self.angle) / 2))
+
+    def neighbour(self, rounding: Callable[[Fraction], Fraction], epsilon: Fraction) -> Tautochrone:
+        """The start nearer to rest by 2^-20 of its way to 0 or to the cusp, or by 16 roundings."""
+        size = abs(self.angle)
+        shift = max(min(size, self._below_cusp) / (1 << 20), 16 * epsilon * size)
+        moved = self.angle - shift if self.angle > 0 else self.angle + shift
+        return Tautochrone(rounding(moved), self.radius, self.g)
+
+    @property
+    def cusp_bits(self) -> int:
+        return max(0, 1 - exponent(self._below_cusp))
+
+    def closed_form(self, m: EllipticArithmetic) -> Swing:
+        """The closed form in balls or in mpmath."""
+        return Swing(m, *(m.number(value) for value in (self.angle, self.radius, self.g)))
+
+    def quadrature_form(self) -> Swing:
+        return QuadratureSwing(MPMATH, *(MPMATH.number(value) for value in (self.angle, self.radius, self.g)))
+
+
+@dataclass(frozen=True, repr=False)
+class CycloidalPendulum(SeparableProblem, Swinging):
+    """The same bead by its arc length from the bottom: s'' = -(g/(4 R)) s, released from rest at s = arc.
+
+    The cusp, s = 4 R, is a start like any other; from there the motion is that of the brachistochrone.
+
+    Args:
+        arc: arc length at the start in m, 0 < |arc| <= 4 R.
+        radius: R of the rolling circle in m, positive.
+        g: acceleration of gravity in m/s^2, positive.
+
+    Raises:
+        ValueError: a parameter is outside its range or not finite.
+        TypeError: a parameter is no real number.
+    """
+
+    arc: Fraction
+    radius: Fraction
+    g: Fraction
+
+    name: ClassVar[str] = "cycloidal pendulum"
+    rows: ClassVar[tuple[Row, ...]] = PENDULUM_ROWS
+    state_names: ClassVar[tuple[str, ...]] = ("arc", "arc_rate")
+    positions: ClassVar[int] = 1
+
+    def __init__(self, arc: Any, radius: Any = 1.0, g: Any = 9.81) -> None:
+        for name, value in (("arc", arc), ("radius", radius), ("g", g)):
+            object.__setattr__(self, name, exact(value, name))
+        for name in ("radius", "g"):
+            positive_number(name, getattr(self, name))
+        if not 0 < abs(self.arc) <= 4 * self.radius:
+            raise ValueError(f"arc is {as_number(self.arc)}; an arc length with 0 < |arc| <= 4 radius is accepted.")
+
+    def __repr__(self) -> str:
+        arc, radius, g = (as_number(value) for value in (self.arc, self.radius, self.g))
+        return f"CycloidalPendulum(arc={arc!r}, radius={radius!r}, g={g!r})"
+
+    @property
+    def start(self) -> tuple[Fraction, ...]:
+        return self.arc, ZERO
+
+    @staticmethod
+    def velocity(m: Arithmetic, momenta: Sequence[Any], p: dict[str, Any]) -> tuple[Any, ...]:  # noqa: ARG004
+        """The rate of the arc length."""
+        return (momenta[0],)
+
+    @staticmethod
+    def force(m: Arithmetic, positions: Sequence[Any], p: dict[str, Any]) -> tuple[Any, ...]:  # noqa: ARG004
+        """s'' = -(g/(4 R)) s."""
+        return (arc_acceleration(positions[0], p["radius"], p["g"]),)
+
+    @staticmethod
+    def invariant(m: Arithmetic, y: Sequence[Any], p: dict[str, Any]) -> Any:  # noqa: ARG004
+        """The energy per mass above rest at the bottom, in m^2/s^2."""
+        return arc_energy(y[0], y[1], p["radius"], p["g"])
+
+    def rate(self) -> float:
+        """w: |d(s'')/ds| = w^2."""
+        return self.frequency()
+
+    def neighbour(self, rounding: Callable[[Fraction], Fraction], epsilon: Fraction) -> CycloidalPendulum:
+        """The start nearer to the bottom by 2^-20 of its way, or by 16 roundings."""
+        smaller = 1 - max(Fraction(1, 1 << 20), 16 * epsilon)
+        return CycloidalPendulum(rounding(self.arc * smaller), self.radius, self.g)
+
+    def exact_row(self, row: str, argument: Any) -> tuple[Fraction, ...] | None:
+        """The start, and the energy, which is rational."""
+        energy = (self.g * self.arc**2 / (8 * self.radius),)
+        return energy if row == "energy" else super().exact_row(row, argument)
+
+    def closed_form(self, m: EllipticArithmetic) -> ArcSwing:
+        """The closed form in balls or in mpmath."""
+        return ArcSwing(m, *(m.number(value) for value in (self.arc, self.radius, self.g)))
+
+    def quadrature_form(self) -> ArcSwing:
+        return QuadratureArcSwing(MPMATH, *(MPMATH.number(value) for value in (self.arc, self.radius, self.g)))
