@@ -69,8 +69,7 @@ def chunks(columns: Columns, found: Sequence[Column], size: int) -> Iterator[Chu
     """The rows of columns of one length, the time first.
 
     Raises:
-        ValueError: there are none, the columns are not of one length, or a number is not finite.
-        TypeError: a column does not hold real numbers.
+        ValueError: there are none, the columns are not of one length, or one holds what is no finite number.
     """
     names = columns.wanted
     for name, column in zip(names, found, strict=True):
@@ -78,7 +77,7 @@ def chunks(columns: Columns, found: Sequence[Column], size: int) -> Iterator[Chu
             shapes = ", ".join(f"{each} {one.shape}" for each, one in zip(names, found, strict=True))
             raise ValueError(f"the columns have the shapes {shapes}; one number for each time is accepted.")
         if column.dtype.kind not in NUMBERS:
-            raise TypeError(f"{name} is an array of {column.dtype}; real numbers or decimal strings are accepted.")
+            raise ValueError(f"{name} is an array of {column.dtype}; real numbers or decimal strings are accepted.")
     rows = found[0].shape[0]
     if not rows:
         raise ValueError("there are no rows; a row for each time is accepted.")

@@ -111,7 +111,8 @@ class Judge:
     def _refuse_degrees(self, states: Sequence[Sequence[Written]], truths: Sequence[Sequence[arb]]) -> None:
         """Raise where a number in radians is wrong by the factor that degrees would make it wrong by."""
         for i, (name, units) in enumerate(zip(self.problem.state_names, self._units, strict=True)):
-            pairs = [(float(y[i].value), float(x[i])) for y, x in zip(states[:FIRST_ROWS], truths, strict=False)]
+            first = zip(states[:FIRST_ROWS], truths, strict=False)
+            pairs = [(float(BALL.number(state[i].value)), float(truth[i])) for state, truth in first]
             size = max(abs(truth) for _, truth in pairs)
             ratios = [given / truth for given, truth in pairs if abs(truth) > size / 8]
             if units.startswith("rad") and ratios and abs(median(ratios) / DEGREES - 1) < 0.02:

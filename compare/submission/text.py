@@ -66,7 +66,7 @@ class TextRows:
                     [read(t) for t, _, _ in batch], [state for _, state, _ in batch], [at for _, _, at in batch]
                 )
             if not begun:
-                raise ValueError(f"'{path}' has no rows; a row for each time is accepted.")
+                raise ValueError(f"{_shown(path)} has no rows; a row for each time is accepted.")
 
     def _decide(self, states: Iterable[tuple[Written, ...]]) -> None:
         """Decide how times are read, by the digits of the first states."""
@@ -111,9 +111,15 @@ class TextRows:
         return t, tuple(state), at
 
 
+def _shown(path: Path) -> str:
+    return "standard input" if str(path) == STANDARD_INPUT else f"'{path}'"
+
+
 def _as_double(t: Written) -> Written:
     """The double that a time of at most 17 digits spells."""
-    return of_value(float(t.value))._replace(text=t.text) if t.digits <= ROUND_TRIP_DIGITS else t
+    if t.digits > ROUND_TRIP_DIGITS or abs(t.value) > sys.float_info.max:
+        return t
+    return of_value(float(t.value))._replace(text=t.text)
 
 
 def _as_it_is(t: Written) -> Written:

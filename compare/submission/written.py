@@ -112,8 +112,9 @@ def _of_mpmath(value: Any, name: str) -> Written:
     if not mp.isfinite(value):
         raise ValueError(f"{name} is {value}, which is not finite; {ACCEPTED}.")
     mantissa, exponent = (int(part) for part in value.man_exp)
-    digits = max(abs(mantissa).bit_length(), mp.prec) * LOG10_2
-    return Written(mantissa * Fraction(2) ** exponent, mp.nstr(value, math.ceil(digits) + 1), digits)
+    digits = max(mantissa.bit_length(), mp.prec) * LOG10_2
+    sign = -1 if value < 0 else 1  # man_exp is of the absolute value
+    return Written(sign * mantissa * Fraction(2) ** exponent, mp.nstr(value, math.ceil(digits) + 1), digits)
 
 
 def _of_heyoka(value: Any, name: str) -> Written:
