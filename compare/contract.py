@@ -11,13 +11,26 @@ from typing import TYPE_CHECKING, Any, ClassVar, Protocol
 if TYPE_CHECKING:
     from compare.algebraic import Coefficient
 
-__all__ = ["Method", "OneStep", "State", "System"]
+__all__ = ["Equation", "Method", "OneStep", "State", "System"]
 
 State = tuple[Any, ...]
 """The numbers that a lane carries from step to step: the problem's state, then what the method remembers."""
 
 
-class System(Protocol):
+class Equation(Protocol):
+    """y' = f(y) in one arithmetic."""
+
+    def number(self, value: Coefficient) -> Any:
+        """An exact coefficient as a number of the arithmetic."""
+
+    def derivative(self, y: State) -> State:
+        """f(y)."""
+
+    def jacobian(self, y: State) -> tuple[State, ...]:
+        """The rows df_i/dy_j of f at y; an entry that is always zero is the integer 0."""
+
+
+class System(Equation, Protocol):
     """An equation of motion y' = f(y) in one arithmetic; positions first where it is separable."""
 
     dimension: int
@@ -27,20 +40,11 @@ class System(Protocol):
     level: Any
     """The invariant at the start of the march, which a conservative method keeps."""
 
-    def number(self, value: Coefficient) -> Any:
-        """An exact coefficient as a number of the arithmetic."""
-
-    def derivative(self, y: State) -> State:
-        """f(y)."""
-
     def velocity(self, momenta: State) -> State:
         """The rates of the positions, which depend on the momenta alone."""
 
     def force(self, positions: State) -> State:
         """The rates of the momenta, which depend on the positions alone."""
-
-    def jacobian(self, y: State) -> tuple[State, ...]:
-        """The rows df_i/dy_j of f at y."""
 
     def invariant(self, y: State) -> Any:
         """The problem's conserved quantity above its least value."""

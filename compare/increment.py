@@ -10,17 +10,17 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from compare.algebraic import Coefficient
-    from compare.contract import State, System
+    from compare.contract import Equation, State
 
 __all__ = ["advance", "increment", "part"]
 
 
-def part(system: System, weight: Coefficient, h: Any) -> Any:
+def part(system: Equation, weight: Coefficient, h: Any) -> Any:
     """weight h: the same in every step, so that the compiler takes it out of them all."""
     return h if weight == 1 else system.number(weight) * h
 
 
-def increment(system: System, h: Any, weights: Sequence[Coefficient], slopes: Sequence[State]) -> State:
+def increment(system: Equation, h: Any, weights: Sequence[Coefficient], slopes: Sequence[State]) -> State:
     """sum_j (h weights_j) slopes_j; nothing where every weight is zero."""
     sizes = [(part(system, weight, h), slope) for weight, slope in zip(weights, slopes, strict=False) if weight != 0]
     if not sizes:
@@ -29,7 +29,7 @@ def increment(system: System, h: Any, weights: Sequence[Coefficient], slopes: Se
     return tuple(reduce(add, (size * slope[i] for size, slope in sizes)) for i in components)
 
 
-def advance(system: System, y: State, h: Any, weights: Sequence[Coefficient], slopes: Sequence[State]) -> State:
+def advance(system: Equation, y: State, h: Any, weights: Sequence[Coefficient], slopes: Sequence[State]) -> State:
     """y + sum_j (h weights_j) slopes_j."""
     moved = increment(system, h, weights, slopes)
     return tuple(map(add, y, moved)) if moved else y

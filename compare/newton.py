@@ -17,7 +17,7 @@ from compare.increment import part
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from compare.contract import State, System
+    from compare.contract import Equation, State
 
 __all__ = ["Elimination", "Matrix", "evaluations", "iterations", "jacobians", "slopes"]
 
@@ -58,7 +58,7 @@ def jacobians(matrix: Matrix, iterations: int) -> int:
 
 
 def slopes(
-    system: System, y: State, h: Any, matrices: Sequence[Matrix], iterations: int, guess: State | None = None
+    system: Equation, y: State, h: Any, matrices: Sequence[Matrix], iterations: int
 ) -> tuple[list[State], list[State]]:
     """The slopes K_i of the stages, and what the last iteration changed of them.
 
@@ -68,10 +68,8 @@ def slopes(
         h: the step size.
         matrices: a_ij for each component of the state; the same for all of them in a Runge-Kutta method.
         iterations: at least 2.
-        guess: the slope from which every stage begins; f(y) if None.
     """
-    at_y = system.derivative(y) if guess is None else guess
-    found = [at_y] * len(matrices[0])
+    found = [system.derivative(y)] * len(matrices[0])
     zero = system.number(Q(0))
     changes: list[State] = [(zero,) * len(y)] * len(found)
     implicit = _implicit(matrices)
@@ -92,7 +90,7 @@ def _minus(a: State, b: State) -> State:
     return tuple(first - second for first, second in zip(a, b, strict=True))
 
 
-def _stage(system: System, y: State, h: Any, rows: Sequence[Sequence[Coefficient]], found: Sequence[State]) -> State:
+def _stage(system: Equation, y: State, h: Any, rows: Sequence[Sequence[Coefficient]], found: Sequence[State]) -> State:
     """Y = y + h sum_j a_j K_j, with weights for each component of their own."""
     moved = []
     for c, row in enumerate(rows):
@@ -105,7 +103,7 @@ def _stage(system: System, y: State, h: Any, rows: Sequence[Sequence[Coefficient
 
 
 def _rows(
-    system: System, h: Any, matrices: Sequence[Matrix], implicit: Sequence[int], jacobians: Sequence[Sequence[State]]
+    system: Equation, h: Any, matrices: Sequence[Matrix], implicit: Sequence[int], jacobians: Sequence[Sequence[State]]
 ) -> list[list[Any]]:
     """I - h a J, component by component and stage by stage within: in a separable system it begins with the identity.
 

@@ -4,17 +4,54 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from compare.methods.explicit import EXPLICIT
-from compare.methods.implicit import IMPLICIT
-from compare.methods.symplectic import SYMPLECTIC
+from compare.methods.compositions import COMPOSITIONS
+from compare.methods.embedded import EMBEDDED
+from compare.methods.explicit import EULER, EXPLICIT, HEUN, MIDPOINT, RK4
+from compare.methods.implicit import IMPLICIT, IMPLICIT_MIDPOINT
+from compare.methods.multistep import MULTISTEP
+from compare.methods.nystrom import NYSTROM
+from compare.methods.symplectic import (
+    POSITION_VERLET,
+    RUTH3,
+    SUZUKI4,
+    SYMPLECTIC,
+    SYMPLECTIC_EULER,
+    SYMPLECTIC_EULER_ADJOINT,
+    VERLET,
+    YOSHIDA4,
+)
 from reference.names import unknown
 
 if TYPE_CHECKING:
     from compare.method import Method
 
-__all__ = ["METHODS", "find"]
+__all__ = ["DEFAULT", "METHODS", "find"]
 
-METHODS: tuple[Method, ...] = (*EXPLICIT, *SYMPLECTIC, *IMPLICIT)
+METHODS: tuple[Method, ...] = (
+    *EXPLICIT,
+    *EMBEDDED,
+    *SYMPLECTIC,
+    *COMPOSITIONS,
+    *NYSTROM,
+    *IMPLICIT,
+    *MULTISTEP,
+)
+
+DEFAULT: tuple[Method, ...] = (
+    EULER,
+    MIDPOINT,
+    HEUN,
+    RK4,
+    SYMPLECTIC_EULER,
+    SYMPLECTIC_EULER_ADJOINT,
+    VERLET,
+    POSITION_VERLET,
+    RUTH3,
+    YOSHIDA4,
+    SUZUKI4,
+    IMPLICIT_MIDPOINT,
+)
+"""Those that a study compares unless it is told which."""
 
 
 def find(name: str) -> Method:

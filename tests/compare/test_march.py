@@ -99,11 +99,16 @@ class Counter:
         self.evaluations = self.jacobians = 0
 
     def __getattr__(self, name: str) -> Any:
-        if name in {"force", "derivative"}:
-            self.evaluations += 1
-        if name in {"jacobian", "gradient"}:
-            self.jacobians += 1
-        return getattr(self.system, name)
+        found = getattr(self.system, name)
+        kinds = {"force": "evaluations", "derivative": "evaluations", "jacobian": "jacobians", "gradient": "jacobians"}
+        if name not in kinds:
+            return found
+
+        def counted(y: Any) -> Any:
+            setattr(self, kinds[name], getattr(self, kinds[name]) + 1)
+            return found(y)
+
+        return counted
 
 
 def test_an_implicit_method_with_too_large_a_step_gives_no_number() -> None:
