@@ -1,100 +1,95 @@
-"""The order of a method by algebra: exact, with no step taken.
+"""The order of a method by algebra, with no step taken: the order conditions hold up to it and one fails beyond it.
 
-Runge-Kutta methods by Butcher's rooted trees, sum_i b_i Phi_i(t) = 1/gamma(t); splittings by comparing the product of
-exponentials with exp(h(A + B)) in the free associative algebra of A and B, word by word.
-See E. Hairer, C. Lubich and G. Wanner, Geometric Numerical Integration (2006), chapters III.1 and III.5.
+Rational and algebraic coefficients are held to the conditions exactly; coefficients that are the zero of order
+conditions, in balls so narrow that a condition which holds must have its zero inside and one that fails cannot.
 """
 
 from __future__ import annotations
 
 from fractions import Fraction
-from functools import cache
-from itertools import product
-from math import factorial, prod
-from typing import TYPE_CHECKING, TypeAlias
+from math import factorial
+from typing import TYPE_CHECKING, Any
 
-from compare.algebraic import Coefficient, Q
+from flint import arb, ctx
+
+from compare.algebraic import Algebraic, enclose
+from compare.method import Splitting, Tableau
+from compare.partitioned import Partitioned
+from compare.trees import ElementaryWeights, density, trees
+from compare.words import coefficient, lyndon_words, nystrom_words
 
 if TYPE_CHECKING:
-    from compare.method import Splitting, Tableau
+    from collections.abc import Callable, Iterator, Sequence
 
-__all__ = ["order_of_splitting", "order_of_tableau", "trees"]
+    from compare.algebraic import Coefficient
 
-Tree: TypeAlias = tuple["Tree", ...]
-"""A rooted tree: the sorted tuple of the subtrees at its root."""
+__all__ = ["PROOF_BITS", "order_of", "order_of_partitioned", "order_of_splitting", "order_of_tableau"]
 
-
-@cache
-def trees(order: int) -> tuple[Tree, ...]:
-    """Every rooted tree with ``order`` vertices: 1, 1, 2, 4, 9, 20, ... of them."""
-    return tuple(sorted(_forests(order - 1, order - 1)))
+PROOF_BITS = 300
+LIMIT = 12
+"""No order is looked for beyond it."""
 
 
-@cache
-def _forests(vertices: int, largest: int) -> tuple[Tree, ...]:
-    """Every multiset of trees with ``vertices`` vertices in all, none of more than ``largest``."""
-    if vertices == 0:
-        return ((),)
-    found = set()
-    for size in range(1, min(vertices, largest) + 1):
-        for tree, rest in product(trees(size), _forests(vertices - size, size)):
-            found.add(tuple(sorted((tree, *rest))))
-    return tuple(found)
+def order_of(method: Tableau | Splitting | Partitioned) -> int:
+    """The order that the coefficients of a method have."""
+    if isinstance(method, Splitting):
+        return order_of_splitting(method)
+    return order_of_partitioned(method) if isinstance(method, Partitioned) else order_of_tableau(method)
 
 
-def _vertices(tree: Tree) -> int:
-    return 1 + sum(_vertices(subtree) for subtree in tree)
+def order_of_tableau(method: Tableau, b: Sequence[Coefficient] | None = None) -> int:
+    """The order of a Runge-Kutta method, or of its stages with other weights, by Butcher's trees."""
+    with ctx.workprec(PROOF_BITS):
+        values = _numbers([*(b or method.b), *(entry for row in method.matrix for entry in row)])
+        size = method.stages
+        weights, entries = values[:size], values[size:]
+        matrix = [entries[i * size : (i + 1) * size] for i in range(size)]
+        return _largest(lambda order: _tree_residuals((weights,), (matrix,), order))
 
 
-def _density(tree: Tree) -> int:
-    """gamma(t): the product over all vertices of the size of the subtree above."""
-    return _vertices(tree) * prod(_density(subtree) for subtree in tree)
+def order_of_partitioned(method: Partitioned) -> int:
+    """The order of a partitioned Runge-Kutta method, by trees of two colours: for separable systems and all others."""
+    return _largest(lambda order: _tree_residuals((method.b, method.b), (method.matrix, method.hat), order))
 
 
-def _weights(method: Tableau, tree: Tree) -> list[Coefficient]:
-    """The stage values of the elementary weight: Phi_i(t) = product over subtrees of sum_j a_ij Phi_j."""
-    values: list[Coefficient] = [Q(1)] * method.stages
-    for subtree in tree:
-        inner = _weights(method, subtree)
-        sums = [sum((a * w for a, w in zip(row, inner, strict=True)), Q(0)) for row in method.matrix]
-        values = [value * total for value, total in zip(values, sums, strict=True)]
-    return values
+def order_of_splitting(method: Splitting) -> int:
+    """The order of a splitting, by words; of a palindromic one it is even, so that odd degrees decide it.
+
+    Where the method is made for it, the velocity is taken to be linear in the momenta.
+    """
+    with ctx.workprec(PROOF_BITS):
+        weights = _numbers([weight for _, weight in method.flows])
+        factors = [{kind: weight} for (kind, _), weight in zip(method.flows, weights, strict=True)]
+        words = nystrom_words if method.nystrom else lyndon_words
+
+        def residuals(degree: int) -> Iterator[Any]:
+            if method.symmetric and degree % 2 == 0:
+                return
+            for word in words(degree):
+                yield coefficient(word, factors) * factorial(degree) - 1
+
+        return _largest(residuals)
 
 
-def order_of_tableau(method: Tableau, limit: int = 12) -> int:
-    """The largest p <= limit for which every order condition of every tree up to p vertices holds exactly."""
-    for order in range(1, limit + 1):
-        for tree in trees(order):
-            weight = sum((b * w for b, w in zip(method.b, _weights(method, tree), strict=True)), Q(0))
-            if weight != Fraction(1, _density(tree)):
-                return order - 1
-    return limit
+def _tree_residuals(weights: Sequence[Sequence[Any]], matrices: Sequence[Any], order: int) -> Iterator[Any]:
+    elementary = ElementaryWeights(*matrices)
+    for tree in trees(order, len(matrices)):
+        yield elementary.weight(weights[tree[0]], tree) * density(tree) - 1
 
 
-Series: TypeAlias = dict[tuple[str, ...], Coefficient]
+def _largest(residuals: Callable[[int], Iterator[Any]]) -> int:
+    """The order up to which all residuals vanish."""
+    return next(
+        (order - 1 for order in range(1, LIMIT + 1) if not all(_vanishes(value) for value in residuals(order))), LIMIT
+    )
 
 
-def _times_exponential(series: Series, letter: str, weight: Coefficient, degree: int) -> Series:
-    """series * exp(weight letter), truncated after words of ``degree`` letters."""
-    result: Series = {}
-    for word, coefficient in series.items():
-        term: Coefficient = coefficient
-        for power in range(degree - len(word) + 1):
-            term = coefficient if power == 0 else term * weight / power
-            extended = word + (letter,) * power
-            result[extended] = result.get(extended, Q(0)) + term
-    return result
+def _vanishes(value: Any) -> bool:
+    return bool(value.contains(0)) if isinstance(value, arb) else bool(value == 0)
 
 
-def order_of_splitting(method: Splitting, limit: int = 8) -> int:
-    """The largest p <= limit for which every word of up to p letters has the coefficient of exp(A + B) exactly."""
-    for degree in range(1, limit + 1):
-        series: Series = {(): Q(1)}
-        for letter, weight in method.flows:
-            series = _times_exponential(series, letter, weight, degree)
-        if any(
-            series.get(word, Q(0)) != Fraction(1, factorial(degree))
-            for word in product(("kick", "drift"), repeat=degree)
-        ):
-            return degree - 1
-    return limit
+def _numbers(coefficients: Sequence[Coefficient]) -> list[Any]:
+    """The coefficients as they are where arithmetic on them is exact, else in balls."""
+    if all(isinstance(value, (int, Fraction, Algebraic)) for value in coefficients):
+        return list(coefficients)
+    return [0 if value == 0 else enclose(value) for value in coefficients]

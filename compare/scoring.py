@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from compare.methods import METHODS, find
+from compare.methods import DEFAULT, find
 from compare.precision import precision as find_precision
 from compare.scores import Course, fit_order, score_method
 from reference.exact import as_number, exact
@@ -74,7 +74,7 @@ def score_all(
 
     Args:
         problems: problems of one family.
-        methods: names or aliases; all methods if None.
+        methods: names or aliases; ``compare.methods.DEFAULT`` if None.
         n: numbers of steps, each a positive integer.
         t_end: end of the march, s.
         precision: a format of ``compare.precision``.
@@ -88,7 +88,7 @@ def score_all(
     if not all(isinstance(problem, Problem) for problem in problems):
         raise TypeError(f"problems holds a {type(problems[0]).__name__}; problems such as Pendulum(1.0) are accepted.")
     fmt = find_precision(precision)
-    chosen = METHODS if methods is None else tuple(dict.fromkeys(find(name) for name in some(methods, "methods")))
+    chosen = DEFAULT if methods is None else tuple(dict.fromkeys(find(name) for name in some(methods, "methods")))
     end = exact(t_end, "t_end")
     if end <= 0:
         raise ValueError(f"t_end is {as_number(end)}; a positive number is accepted.")

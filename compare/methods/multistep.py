@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 from compare.algebraic import Q
 from compare.coefficients import adams, backward_differences, stormer
 from compare.methods.explicit import RK4
 from compare.multistep import LinearMultistep, PredictorCorrector
 from compare.stormer import StormerCowell
+
+if TYPE_CHECKING:
+    from compare.contract import Method
 
 __all__ = ["BDF2", "MULTISTEP", "TWO_STEP_LEAPFROG"]
 
@@ -57,4 +62,11 @@ STORMER_COWELL = (
     StormerCowell("cowell5", 5, COWELL, stormer(4, implicit=True), velocity=5, starter=RK4),
 )  # fmt: skip
 
-MULTISTEP = (*BASHFORTH_METHODS, *MOULTON_METHODS, *PREDICTOR_CORRECTORS, BDF2, TWO_STEP_LEAPFROG, *STORMER_COWELL)
+MULTISTEP: tuple[Method, ...] = (
+    *BASHFORTH_METHODS,
+    *MOULTON_METHODS,
+    *PREDICTOR_CORRECTORS,
+    BDF2,
+    TWO_STEP_LEAPFROG,
+    *STORMER_COWELL,
+)

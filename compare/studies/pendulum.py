@@ -48,7 +48,7 @@ def study(
         length: length in m.
         t_end: end of the march in s.
         n: numbers of steps, each a positive integer.
-        methods: names or aliases; all methods if None.
+        methods: names or aliases; ``compare.methods.DEFAULT`` if None.
         precision: a format of ``compare.precision``.
         traces: whether to keep trajectories for plots, in TRACE_N steps.
         progress: called with each method's name when it is done.

@@ -8,7 +8,7 @@ from flint import arb, ctx
 from hypothesis import given
 from hypothesis import strategies as st
 
-from compare.algebraic import Q, enclose, root
+from compare.algebraic import Q, enclose, root, root_of
 
 CUBE_ROOT = root(2, 3)
 fractions = st.fractions(min_value=-50, max_value=50, max_denominator=97)
@@ -65,6 +65,28 @@ def test_numbers_of_two_fields_do_not_mix() -> None:
         _ = CUBE_ROOT + root(4, 3)
 
 
-def test_a_number_prints_as_a_polynomial_in_its_root() -> None:
-    assert repr(Q(1, 3) - CUBE_ROOT) == "1/3 - 1*2^(1/3)"
+def test_a_number_prints_as_a_sum_of_roots() -> None:
+    assert repr(Q(1, 3) - CUBE_ROOT) == "1/3 - 2^(1/3)"
+    assert repr(CUBE_ROOT * CUBE_ROOT * Q(5, 12)) == "5*2^(2/3)/12"
+    assert repr((4 + root(6)) / 10) == "2/5 + sqrt(6)/10"
     assert repr(CUBE_ROOT - CUBE_ROOT) == "0"
+
+
+QUARTIC = root_of((-3, 16, -24, 0, 12), 0.9)
+
+
+def test_a_root_of_a_polynomial_is_the_one_asked_for() -> None:
+    assert 12 * QUARTIC * QUARTIC * QUARTIC * QUARTIC - 24 * QUARTIC * QUARTIC + 16 * QUARTIC == 3
+    with ctx.workprec(200):
+        r = enclose(QUARTIC)
+        assert abs(float(r) - 0.9196615230173999) < 1e-15
+        assert (12 * r**4 - 24 * r**2 + 16 * r - 3).contains(0)
+        assert float(enclose(root_of((-3, 16, -24, 0, 12), -1.7))) < 0
+
+
+def test_numbers_of_two_fields_are_equal_where_they_are_the_same_fraction() -> None:
+    assert root(2) * root(2) == root(3) - root(3) + 2
+    assert root(2) != root(3)
+    assert hash(root(2) * root(2)) == hash(Q(2))
+    assert (root(2) * root(2)).rational == 2
+    assert root(2).rational is None

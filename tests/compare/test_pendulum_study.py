@@ -7,7 +7,7 @@ import math
 import numpy as np
 import pytest
 
-from compare.methods import METHODS
+from compare.methods import DEFAULT
 from compare.studies.pendulum import TRACE_SAMPLES, study
 from reference import Pendulum
 
@@ -23,9 +23,9 @@ def test_a_study_has_a_cell_a_drift_and_an_order_for_everything_asked() -> None:
     assert found.parameters["theta0"] == [1.0, 0.5]
 
 
-def test_the_default_is_every_method_and_fits_its_declared_order() -> None:
+def test_the_default_methods_fit_their_declared_orders() -> None:
     found = study(n=[2**k for k in range(9, 15)])
-    assert [order.method for order in found.order] == [method.name for method in METHODS]
+    assert [order.method for order in found.order] == [method.name for method in DEFAULT]
     for order in found.order:
         assert order.fitted_order == pytest.approx(order.declared_order, abs=0.08)
 
