@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
-__all__ = ["Column", "Grid", "Section", "latex", "markdown", "markdown_text", "text", "text_width"]
+__all__ = ["Column", "Grid", "Section", "latex", "markdown", "markdown_text", "slug", "text", "text_width"]
 
 _SCIENTIFIC = re.compile(r"(-?\d(?:\.\d+)?)e([+-]\d+)")
 _LATEX_SPECIAL = {character: rf"\{character}" for character in "_%&#${}"} | {
@@ -56,6 +56,11 @@ class Section:
     title: str
     grids: tuple[Grid, ...]
     note: str = ""
+
+
+def slug(words: str) -> str:
+    """The words as part of a section's name: letters, digits and hyphens."""
+    return re.sub(r"[^a-z0-9]+", "-", words)
 
 
 def text(section: Section) -> str:

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import itertools
 import math
-import re
 from typing import TYPE_CHECKING
 
 from compare import grid, machine, rendering
@@ -67,7 +66,7 @@ def _error_section(cells: Sequence[Cell], declared: dict[str, int], at: str, wid
         return Grid(tuple(columns), tuple(map(tuple, rows)))
 
     return Section(
-        name=f"error-vs-n-{_slug(at)}",
+        name=f"error-vs-n-{grid.slug(at)}",
         title=f"Error against N, {at}: largest |theta - exact| over the sample times, in rad, and local order",
         grids=_split(build, _methods(cells), declared, width),
         note="\n".join(
@@ -106,7 +105,7 @@ def _order_section(fits: Sequence[FittedOrder], at: str) -> Section:
         for fit in sorted(fits, key=lambda fit: fit.declared_order)
     )
     return Section(
-        name=f"order-{_slug(at)}",
+        name=f"order-{grid.slug(at)}",
         title=f"Order, {at}: slope of log(error) against log(h) over the asymptotic range, ± spread of local slopes",
         grids=(Grid(columns, rows),),
         note="- means fewer than three cells in the asymptotic range"
@@ -128,7 +127,7 @@ def _drift_section(drifts: Sequence[Drift], declared: dict[str, int], at: str, w
         return Grid(columns, tuple(map(tuple, rows)))
 
     return Section(
-        name=f"energy-drift-{_slug(at)}",
+        name=f"energy-drift-{grid.slug(at)}",
         title=f"Energy drift, {at}: max |E - E0|/(E0 - Emin) over every step",
         grids=_split(build, _methods(drifts), declared, width),
     )
@@ -148,7 +147,7 @@ def _slope_section(drifts: Sequence[Drift], declared: dict[str, int], at: str, w
         return Grid(tuple(columns), tuple(map(tuple, rows)))
 
     return Section(
-        name=f"energy-slope-{_slug(at)}",
+        name=f"energy-slope-{grid.slug(at)}",
         title=f"Energy trend, {at}: max |E - E0|/|E0|, and slope of (E - E0)/(E0 - Emin) per period, 95 % interval",
         grids=(build(_representative(list(_steps(drifts)), lambda ns: grid.text_width(build(ns)) <= width)),),
     )
@@ -159,11 +158,6 @@ def _slope_cells(drift: Drift | None) -> tuple[str, str]:
         return "", ""
     slope = f"{_scientific(drift.slope_per_period)} ± {_digits(drift.slope_interval, '.0e')}"
     return _scientific(drift.max_drift_relative), slope
-
-
-def _slug(at: str) -> str:
-    """The amplitude as part of a label: letters, digits and hyphens."""
-    return re.sub(r"[^a-z0-9]+", "-", at)
 
 
 def _methods(records: Iterable[Cell | Drift]) -> list[str]:
