@@ -9,14 +9,33 @@ if TYPE_CHECKING:
     import os
 
     from reference.certify import Certified
+    from reference.problems.cycloid import Cycloid, Tautochrone
+    from reference.problems.descent import Descent
     from reference.problems.pendulum import Pendulum
+    from reference.problems.polar import PolarBrachistochrone
     from reference.store import Dataset
 
-__all__ = ["Certified", "Pendulum", "__version__", "load"]
+__all__ = [
+    "Certified",
+    "Cycloid",
+    "Descent",
+    "Pendulum",
+    "PolarBrachistochrone",
+    "Tautochrone",
+    "__version__",
+    "load",
+]
 
 __version__ = "0.1.0"
 
-_HOMES = {"Certified": "reference.certify", "Pendulum": "reference.problems.pendulum"}
+_HOMES = {
+    "Certified": "reference.certify",
+    "Cycloid": "reference.problems.cycloid",
+    "Descent": "reference.problems.descent",
+    "Pendulum": "reference.problems.pendulum",
+    "PolarBrachistochrone": "reference.problems.polar",
+    "Tautochrone": "reference.problems.cycloid",
+}
 
 
 def __getattr__(name: str) -> Any:

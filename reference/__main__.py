@@ -75,7 +75,7 @@ def _add_workers(parser: argparse.ArgumentParser) -> None:
 
 
 def _add_at(commands: argparse._SubParsersAction[Parser]) -> None:
-    from reference.at import FAMILIES
+    from reference.families import FAMILIES
 
     at = commands.add_parser("at", help="print proven values at one time, now")
     families = at.add_subparsers(dest="family", metavar="FAMILY", required=True, parser_class=Parser)

@@ -1,4 +1,4 @@
-"""One proven value, now: the families that the command line knows, and what it prints of them."""
+"""One proven value, now: how a family is asked for at the command line, and how it answers."""
 
 from __future__ import annotations
 
@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, Any
 
 from reference.exact import as_number, exact, expansion
 from reference.names import short
-from reference.problems.pendulum import Pendulum
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
@@ -19,7 +18,6 @@ if TYPE_CHECKING:
 
 __all__ = [
     "DIGITS_LIMIT",
-    "FAMILIES",
     "Family",
     "Input",
     "as_json",
@@ -106,23 +104,6 @@ class Family:
     rows: tuple[str, ...]
 
 
-FAMILIES = (
-    Family(
-        "pendulum",
-        "the mathematical pendulum, released from rest or set going",
-        Pendulum,
-        (
-            Input("theta0", "rad", "angle of the start; released from rest, 0 < theta0 < pi"),
-            Input("omega0", "rad s-1", "angular velocity of the start; without it, released from rest", optional=True),
-            Input("g", "m s-2", "acceleration of gravity", "9.81"),
-            Input("length", "m", "length", "1"),
-            Input("t", "s", "time", over="time"),
-        ),
-        ("state", "period", "energy"),
-    ),
-)
-
-
 def digits_count(text: str) -> int:
     """The number of digits asked for.
 
@@ -136,18 +117,35 @@ def digits_count(text: str) -> int:
 
 
 def quantities(family: Family, inputs: Mapping[str, Any]) -> list[Certified]:
-    """The family's quantities at the given inputs, each a proven number."""
+    """The family's quantities at the given inputs, each a proven number.
+
+    Raises:
+        ValueError: an input is not acceptable, or two of them give a quantity of the same name.
+    """
     arguments = {asked.over: inputs[asked.name] for asked in family.inputs if asked.over and asked.name in inputs}
     arguments["once"] = None
     along = {asked.name for asked in family.inputs if asked.over}
     problem = family.problem(**{name: value for name, value in inputs.items() if name not in along})
     rows = {row.name: row for row in problem.rows}
-    return [
+    found = [
         problem.certified(name, arguments[rows[name].over], component)
         for name in family.rows
         if problem.serves(name) and rows[name].over in arguments
         for component in range(len(rows[name].quantities))
     ]
+    _require_single(family, found)
+    return found
+
+
+def _require_single(family: Family, found: list[Certified]) -> None:
+    """Refuse arguments that give the same name two values."""
+    asked = {wanted.over: wanted.name for wanted in family.inputs}
+    first: dict[str, Certified] = {}
+    for value in found:
+        other = first.setdefault(value.quantity.name, value)
+        if other is not value:
+            names = " and ".join(f"--{asked[one.problem.row(one.row).over]}" for one in (other, value))
+            raise ValueError(f"{names} both give {value.quantity.name}; one of them is accepted.")
 
 
 def as_json(found: list[Certified], digits: int, *, routes: bool) -> str:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from reference.groups import pendulum
+from reference.groups import cycloid, descent, pendulum, polar
 from reference.names import unknown
 from reference.plan import Plan
 
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 __all__ = ["LAYOUTS", "PROFILES", "plan"]
 
-FAMILIES = (pendulum,)
+FAMILIES = (pendulum, cycloid, descent, polar)
 LAYOUTS: tuple[Layout, ...] = tuple(layout for family in FAMILIES for layout in family.LAYOUTS)
 
 

@@ -1,0 +1,108 @@
+"""The groups of the polar brachistochrone and of the tunnel."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from reference.plan import Coordinate, Group, Layout
+from reference.problems.polar import PolarBrachistochrone
+
+if TYPE_CHECKING:
+    from reference.problem import Problem, Row
+
+__all__ = ["BOUNDARY", "FAMILY", "LAYOUTS", "MOTION", "core", "full"]
+
+Z0 = Coordinate("z0", "1", "height of the lowest point, r/r0")
+PSI = Coordinate("psi", "rad", "parameter of the curve: 0 at the release, pi at the lowest point")
+TAU = Coordinate("tau", "1", "time since the release in units of sqrt(r0^3/(2 G M))")
+EPSILON = Coordinate("epsilon", "1", "size of the neighbouring curve's deviation")
+END_Z = Coordinate("end_z", "1", "height of the end point, r/r0")
+END_PHI = Coordinate("end_phi", "rad", "angle of the end point")
+SOURCE = (
+    "A. S. Parnovsky, Acta Physica Polonica A 93 (1998) Supplement, S-55; B. C. Carlson, Numer. Algorithms 10 (1995) 13"
+)
+LAW = "inverse-square field, z = r/r0"
+EQUATION = (
+    f"the least time from rest at z = 1 through the lowest point z0, {LAW}: "
+    "z'' = -1/(2 z^2) + kappa (2 z^-5 - 3 z^-4 + z^-3), phi' = sqrt(kappa) (1 - z)/z^3, kappa = z0^3/(1 - z0)"
+)
+BOUNDARY_PROBLEM = f"the least time from rest at (1, 0) to (end_z, end_phi), {LAW}"
+
+
+def rows(problem: type[Problem], *names: str) -> tuple[Row, ...]:
+    """The problem's rows of these names, in this order."""
+    found = {row.name: row for row in problem.rows}
+    return tuple(found[name] for name in names)
+
+
+def to_end(end_z: float, end_phi: float) -> PolarBrachistochrone:
+    """The brachistochrone to the end point (end_z, end_phi)."""
+    return PolarBrachistochrone(end=(end_z, end_phi))
+
+
+ONCE = ("kappa", "half_angle", "descent_time", "dhalf_angle_dz0", "ddescent_time_dz0", "chord_time", "chord_gap")
+FAMILY = Layout(
+    "/polar/family",
+    "brachistochrones in an inverse-square field, by their lowest point",
+    (Z0,),
+    {"psi": PSI, "epsilon": EPSILON},
+    (),
+    rows(PolarBrachistochrone, "curve", *ONCE, "neighbour_gap"),
+    PolarBrachistochrone,
+    SOURCE,
+    EQUATION,
+    "average; higher for z0 near 0, where the path turns sharply near the centre, and as an equation dphi/dz, singular "
+    "at both ends",
+)
+MOTION = Layout(
+    "/polar/motion",
+    "motion in time on these brachistochrones, through the lowest point and back",
+    (Z0,),
+    {"tau": TAU},
+    (),
+    rows(PolarBrachistochrone, "state"),
+    PolarBrachistochrone,
+    SOURCE,
+    EQUATION,
+    "average; higher for z0 near 0, where the passage of the lowest point is short and violent",
+)
+BOUNDARY = Layout(
+    "/polar/boundary",
+    "brachistochrones in an inverse-square field, by their end point",
+    (END_Z, END_PHI),
+    {},
+    (),
+    rows(PolarBrachistochrone, "z0", "arrival_time", "chord_time", "chord_gap"),
+    to_end,
+    SOURCE,
+    BOUNDARY_PROBLEM,
+    "higher: a boundary-value problem, whose solutions end where the angle at z = 1 reaches 2 pi/3",
+)
+LAYOUTS = (FAMILY, MOTION, BOUNDARY)
+
+LOWEST = (0.01, *(k / 20 for k in range(1, 20)), 0.99)
+ENDS = tuple((z, phi) for z in (1.0, 0.875, 0.75, 0.5, 0.25) for phi in (0.125, 0.25, 0.5, 1.0, 1.5))
+
+
+def core() -> tuple[Group, ...]:
+    """The grids of the dataset that ships with the package."""
+    epsilon = np.array([-8, -4, -2, -1, 1, 2, 4, 8]) / 16
+    return (
+        Group(FAMILY, {}, {"z0": LOWEST, "psi": np.arange(101) / 32, "epsilon": epsilon}),
+        Group(MOTION, {}, {"z0": LOWEST, "tau": np.arange(97) / 32}),
+        Group(BOUNDARY, {}, {"end_z": [end[0] for end in ENDS], "end_phi": [end[1] for end in ENDS]}),
+    )
+
+
+def full() -> tuple[Group, ...]:
+    """The same groups with finer and larger grids."""
+    lowest = np.unique(np.concatenate([LOWEST, np.arange(1, 128) / 128]))
+    epsilon = np.delete(np.arange(-32, 33) / 64, 32)
+    ends = [(z, phi) for z in np.arange(1, 33) / 32 for phi in np.arange(1, 33) / 16]
+    return (
+        Group(FAMILY, {}, {"z0": lowest, "psi": np.arange(1601) / 512, "epsilon": epsilon}),
+        Group(MOTION, {}, {"z0": lowest, "tau": np.arange(3073) / 1024}),
+        Group(BOUNDARY, {}, {"end_z": [end[0] for end in ends], "end_phi": [end[1] for end in ends]}),
+    )
