@@ -117,7 +117,7 @@ FAMILIES = (
     ),
     Family(
         "polar",
-        "the brachistochrone in the field of a point mass, z = r/r0, from rest at z = 1; inside a real body an idealisation",
+        "the brachistochrone in the field of a point mass, z = r/r0, from rest; inside a real body an idealisation",
         PolarBrachistochrone,
         (
             Input("z0", "1", "height of the lowest point, or else --end", optional=True),
