@@ -5,15 +5,14 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
+from compare import reading
 from compare.submission import options as submission
 from compare.table import FORMATS
-from reference.names import short
 from reference.terminal import Parser, one_of
 
 if TYPE_CHECKING:
     import argparse
     from collections.abc import Callable, Sequence
-    from fractions import Fraction
 
 __all__ = ["COMMANDS", "Request", "parse"]
 
@@ -111,10 +110,10 @@ def _add(parser: argparse.ArgumentParser, option: str) -> None:
 
 
 def _study_options(known: argparse.Namespace) -> dict[str, Any]:
-    number = _as_written if known.exact else _number
+    number = reading.as_written if known.exact else reading.number
     given: dict[str, Any] = {
-        name: _several(name, getattr(known, name), read)
-        for name, read in (("theta0", number), ("methods", _name), ("n", _whole))
+        name: reading.several(name, getattr(known, name), read)
+        for name, read in (("theta0", number), ("methods", reading.text), ("n", reading.whole))
         if getattr(known, name) is not None
     }
     for name in ("g", "length", "t_end"):
@@ -123,45 +122,6 @@ def _study_options(known: argparse.Namespace) -> dict[str, Any]:
     if known.precision is not None:
         given["precision"] = known.precision
     return given
-
-
-def _several(name: str, words: Sequence[str], read: Callable[[str, str], Any]) -> tuple[Any, ...]:
-    """Comma-separated values of an option that may repeat; each once."""
-    pieces = [piece.strip() for word in words for piece in word.split(",")]
-    if not all(pieces):
-        raise ValueError(f"--{name} has an empty value; values separated by commas are accepted, such as 'A,B'.")
-    values = tuple(read(piece, name) for piece in pieces)
-    for place, value in enumerate(values):
-        if value in values[:place]:
-            raise ValueError(f"--{name} has {pieces[place]} twice; each value is accepted once.")
-    return values
-
-
-def _name(piece: str, _: str) -> str:
-    return piece
-
-
-def _number(piece: str, name: str) -> float:
-    try:
-        return float(piece)
-    except ValueError as error:
-        raise ValueError(f"--{name} '{short(piece)}' is not a number; one such as 1 or 2.5e-3 is accepted.") from error
-
-
-def _as_written(piece: str, name: str) -> Fraction:
-    from reference.exact import exact
-
-    return exact(piece, f"--{name}")
-
-
-def _whole(piece: str, name: str) -> int:
-    try:
-        value = int(piece)
-    except ValueError as error:
-        raise ValueError(f"--{name} '{short(piece)}' is not a whole number; one such as 128 is accepted.") from error
-    if value < 1:
-        raise ValueError(f"--{name} {piece} is not a number of steps; 1 or more is accepted.")
-    return value
 
 
 def _alternatives(names: Sequence[str]) -> str:
