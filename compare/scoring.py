@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from compare.compensated import compensate
 from compare.methods import DEFAULT, find
 from compare.precision import precision as find_precision
 from compare.scores import Course, fit_order, score_method
@@ -69,6 +70,8 @@ def score_all(
     precision: str = "float64",
     executor: Executor | None = None,
     progress: Callable[[str], None] | None = None,
+    *,
+    compensated: bool = False,
 ) -> Scored:
     """March methods over 0 <= t <= t_end of each problem in each number of steps, and score them.
 
@@ -80,6 +83,7 @@ def score_all(
         precision: a format of ``compare.precision``.
         executor: where the methods are marched, such as a process pool; in this process if None.
         progress: called with each method's name when it is done.
+        compensated: whether every step's additions to the state are compensated for rounding.
 
     Raises:
         ValueError: an argument is outside its range, or a name unknown.
@@ -89,6 +93,8 @@ def score_all(
         raise TypeError(f"problems holds a {type(problems[0]).__name__}; problems such as Pendulum(1.0) are accepted.")
     fmt = find_precision(precision)
     chosen = DEFAULT if methods is None else tuple(dict.fromkeys(find(name) for name in some(methods, "methods")))
+    if compensated:
+        chosen = tuple(compensate(method) for method in chosen)
     end = exact(t_end, "t_end")
     if end <= 0:
         raise ValueError(f"t_end is {as_number(end)}; a positive number is accepted.")
