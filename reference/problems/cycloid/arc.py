@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 __all__ = ["CycloidArc"]
 
 ZERO = Fraction(0)
-TAYLOR_RADIANS = 4000
+TAYLOR_RADIANS = 1000
 
 
 class Curve(ClosedForm):
@@ -129,5 +129,11 @@ class CycloidArc(Problem):
         return (None, argument) if row == "state" else None
 
     def working_bits(self, arguments: Sequence[Any]) -> int:
-        sizes = [abs(a) * scale for a in arguments if a for scale in (1, 1 / self.radius)]
-        return max((2 * max(0, -exponent(size)) + max(0, exponent(size)) for size in sizes), default=0)
+        """An argument is an angle or a depth: it loses digits where it is small, and as a depth beside 2 R."""
+        parts = [abs(a) for a in arguments] + [abs(part) for a in arguments for part in self._parts(a)]
+        return max((max(0, exponent(part), -2 * exponent(part)) for part in parts if part), default=0)
+
+    def _parts(self, y: Fraction) -> tuple[Fraction, Fraction]:
+        """sin^2 and cos^2 of half of the angle at the depth y."""
+        part = y / (2 * self.radius)
+        return part, 1 - part

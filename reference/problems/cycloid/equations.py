@@ -73,8 +73,8 @@ def angular_acceleration(m: Arithmetic, theta: Any, omega: Any, radius: Any, g: 
     """theta'' = tan(theta/2) (theta'^2/2 - g/(2 R)), in rad/s^2, theta from the bottom.
 
     From (1 + cos theta) theta'' - (1/2) sin(theta) theta'^2 + (g/(2 R)) sin theta = 0, divided where it is 0/0 at the
-    cusps.  (The thesis' (1.47) has the last sign wrong, and the line after it both: J. Šalinović, Problem brahistokrone
-    u nehomogenom gravitacijskom polju, University of Split 2022.)
+    cusps.  (The thesis' (1.46), (1.47) and the line after it have both of the last signs wrong, its (1.48) right:
+    J. Šalinović, Problem brahistokrone u nehomogenom gravitacijskom polju, University of Split 2022.)
     """
     return m.sin(theta / 2) / m.cos(theta / 2) * (omega * omega / 2 - g / (2 * radius))
 

@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
 __all__ = ["Cycloid"]
 
-TAYLOR_RADIANS = 4000
+TAYLOR_RADIANS = 1000
 """The Taylor route serves times up to sqrt(g/R) t = TAYLOR_RADIANS."""
 RADIUS_BITS = 1024
 """The radius, which is no rational number, is a parameter of the equation of motion to this precision."""
@@ -154,9 +154,14 @@ class Cycloid(SeparableProblem):
         return (self.end_x, self.end_y) if row in {"curve", "arc"} and argument == 1 else None
 
     def working_bits(self, arguments: Sequence[Any]) -> int:
-        sizes = [abs(a) for a in arguments if a]
-        smallest, largest = min(sizes, default=ONE), max(sizes, default=ONE)
-        return self._edge_bits + 2 * max(0, -exponent(smallest)) + max(0, exponent(largest) + exponent(self.g))
+        """An argument is a fraction or a time: as either it loses digits where it is small, as a time where it is late.
+
+        A time t is the angle sqrt(g/R) t, with R about x or y^3/x^2, whichever is larger.
+        """
+        radius = max(self.end_x, self.end_y**3 / self.end_x**2)
+        sizes = [exponent(abs(a)) for a in arguments if a]
+        turned = [size + exponent(self.g / radius) // 2 for size in sizes]
+        return self._edge_bits + max((max(0, size, -2 * size) for size in sizes + turned), default=0)
 
     @property
     def _edge_bits(self) -> int:

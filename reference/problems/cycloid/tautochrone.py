@@ -34,8 +34,9 @@ if TYPE_CHECKING:
 __all__ = ["CycloidalPendulum", "Swinging", "Tautochrone"]
 
 DECISION_BITS = 128
-TAYLOR_WORK = 1000
-"""The Taylor route serves times up to w t (1 - log2 cos(angle/2)) = TAYLOR_WORK: near a cusp its steps are short."""
+TAYLOR_WORK = 500
+"""The Taylor route serves what takes at most this: w t, times the bits of the distance from the cusp, beside which the
+steps are short, times the square of the precision in units of what 60 digits take.  Some seconds."""
 ZERO = Fraction(0)
 
 
@@ -72,11 +73,11 @@ class Swinging(Problem):
         return TaylorSwing(self, bits)
 
     def within_taylor(self, row: str, arguments: Sequence[Any]) -> bool:
-        """Whether every time lies in 0 <= t, w t (1 + cusp_bits) <= TAYLOR_WORK; the rest is always in reach."""
-        if self.row(row).over != "time":
-            return True
-        latest = Fraction(TAYLOR_WORK / (1 + self.cusp_bits) / self.frequency())
-        return all(0 <= t <= latest for t in arguments)
+        """Whether no time is negative and the latest is within TAYLOR_WORK; a period takes three quarters of itself."""
+        times = arguments if self.row(row).over == "time" else [Fraction(3 * float(self.descent_time()))]
+        words = 1 + self.working_bits(times) / 128
+        latest = TAYLOR_WORK / ((1 + self.cusp_bits) * words**2 * self.frequency())
+        return all(0 <= t <= latest for t in times)
 
     def exact_row(self, row: str, argument: Any) -> tuple[Fraction, ...] | None:
         return self.start if row == "state" and argument == 0 else None
@@ -84,7 +85,7 @@ class Swinging(Problem):
     def working_bits(self, arguments: Sequence[Any]) -> int:
         times = [abs(t) for t in arguments if t is not None]
         turns = max(times, default=ZERO) * (1 + self.g / self.radius)
-        return int(turns).bit_length() + 2 * self.cusp_bits + self.rest_bits
+        return int(turns).bit_length() + self.cusp_bits + self.rest_bits
 
     def descent_time(self) -> Certified:
         """pi sqrt(R/g) in s: from every start to the bottom."""
