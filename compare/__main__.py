@@ -12,7 +12,7 @@ import os
 import shutil
 import sys
 from importlib import import_module
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from compare.arguments import Request, parse
 from reference.terminal import run
@@ -20,8 +20,8 @@ from reference.terminal import run
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
 
-    from compare.output import Folder
     from compare.records import Study
+    from compare.solvers.records import SolverStudy
 
 __all__ = ["main"]
 
@@ -40,14 +40,20 @@ def _command(words: Sequence[str] | None = None) -> int:
     if request.command == "score":
         _score(request)
         return 0
-    _print(_listing(request.form) if request.command == "list" else _pendulum(request))
+    if request.command == "list":
+        _print(_listing(request.form))
+    elif request.command == "solvers":
+        _print(_shown(request, _solver_study, "compare.solvers"))
+    else:
+        _print(_shown(request, _study, "compare"))
     return 0
 
 
-def _pendulum(request: Request) -> str:
-    """Run the study, write what is to be written, and return the tables."""
-    from compare import table
+def _shown(request: Request, run_study: Callable[..., Any], home: str) -> str:
+    """Run a study, write what is to be written, and return the tables; ``home`` has the modules that show it."""
+    from compare import rendering
 
+    tables = import_module(f"{home}.table").TABLES
     out = request.out
     if out is None and request.plots:
         out = DEFAULT_FOLDER.format(problem=request.command)
@@ -59,12 +65,16 @@ def _pendulum(request: Request) -> str:
 
             results = stack.enter_context(folder(out))
         with _progress(request.quiet) as progress:
-            study = _study(request, progress)
+            study = run_study(request, progress)
             if results is not None:
-                _write(study, request, results, width, progress)
+                results.write(rendering.files(study, tables, request.form, width))
+            if results is not None and request.plots:
+                if progress is not None:
+                    progress("drawing")
+                results.write(import_module(f"{home}.plot").files(study))
     if results is not None and not request.quiet:
         print(f"wrote {', '.join(results.names)} into {results.target}", file=sys.stderr)
-    return table.render(study, request.form, width)
+    return rendering.render(study, tables, request.form, width)
 
 
 def _score(request: Request) -> None:
@@ -89,16 +99,10 @@ def _study(request: Request, progress: Callable[[str], None] | None) -> Study:
         return pendulum.study(**request.options, traces=request.plots, progress=progress, executor=executor)
 
 
-def _write(study: Study, request: Request, results: Folder, width: int, progress: Callable[[str], None] | None) -> None:
-    from compare import table
+def _solver_study(request: Request, progress: Callable[[str], None] | None) -> SolverStudy:
+    from compare.studies import solvers
 
-    results.write(table.files(study, request.form, width))
-    if request.plots:
-        from compare import plot
-
-        if progress is not None:
-            progress("drawing")
-        results.write(plot.files(study))
+    return solvers.study(**request.options, progress=progress)
 
 
 def _listing(form: str) -> str:

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from compare import reading
+from compare.solvers import options as solvers
 from compare.submission import options as submission
 from compare.table import FORMATS
 from reference.terminal import Parser, one_of
@@ -19,6 +20,7 @@ __all__ = ["COMMANDS", "Request", "parse"]
 COMMANDS = {
     "pendulum": "score integrators on the pendulum: error against N, observed order, energy drift",
     "list": "list the methods: family, order, stages, source",
+    "solvers": "score other people's solvers: error against tolerance, evaluations and seconds, events",
     "score": "judge a file of numbers from any code against the proven truth",
 }
 
@@ -75,7 +77,7 @@ def parse(words: Sequence[str]) -> Request:
         raise ValueError(f"no command is given; {_alternatives(tuple(COMMANDS))} is accepted.")
     known = _parser(words).parse_args(words)
     read: dict[str, Callable[[argparse.Namespace], dict[str, Any]]]
-    read = {"pendulum": _study_options, "score": submission.options}
+    read = {"pendulum": _study_options, "score": submission.options, "solvers": solvers.options}
     return Request(
         command=known.command,
         options=read[known.command](known) if known.command in read else {},
@@ -94,6 +96,8 @@ def _parser(words: Sequence[str] = ("score",)) -> Parser:
         one = commands.add_parser(command, help=text, description=text, epilog=_EPILOG)
         if command == "score":
             submission.add_options(one, with_families=words[0] == command)
+        if command == "solvers":
+            solvers.add_options(one)
         for option in _ACCEPTED.get(command, ()):
             _add(one, option)
     return parser

@@ -1,0 +1,1 @@
+"""Adaptive solvers as people call them, asked and scored."""

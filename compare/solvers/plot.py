@@ -1,0 +1,57 @@
+"""The figures of a study of solvers: error against tolerance, against evaluations and against seconds."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+from compare.ink import inks, saved, style
+from compare.plot import draw_curves, wide_figure
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
+
+    from matplotlib.figure import Figure
+
+    from compare.solvers.records import SolverCell, SolverStudy
+
+__all__ = ["FIGURES", "figures", "files"]
+
+FIGURES: dict[str, tuple[str, str, Callable[[SolverCell], float]]] = {
+    "error-vs-rtol": ("Error against tolerance", "tolerance rtol asked for", lambda cell: cell.rtol),
+    "work-precision": (
+        "Work and precision",
+        "evaluations, as each solver counts them",
+        lambda cell: cell.evaluations or 0,
+    ),
+    "time-precision": ("Time and precision", "seconds", lambda cell: cell.seconds or 0.0),
+}
+"""Each figure's title, the label of its axis, and a cell's place along it."""
+
+
+def files(study: SolverStudy) -> dict[str, bytes]:
+    """Every figure of the study, as PNG and as SVG, by file name."""
+    with style():
+        return {f"{name}.{suffix}": image for name, figure in figures(study) for suffix, image in saved(figure).items()}
+
+
+def figures(study: SolverStudy) -> Iterator[tuple[str, Figure]]:
+    """Every figure with its name; one set an amplitude where the study has several."""
+    amplitudes = list(dict.fromkeys(cell.theta0 for cell in study.error_vs_rtol))
+    for theta0 in amplitudes:
+        suffix = f"-theta0-{theta0!r}" if len(amplitudes) > 1 else ""
+        for name in FIGURES:
+            yield f"solvers-{study.problem}-{name}{suffix}", _figure(study, name, theta0)
+
+
+def _figure(study: SolverStudy, name: str, theta0: float) -> Figure:
+    title, label, work = FIGURES[name]
+    ink = inks(list(dict.fromkeys(cell.solver for cell in study.error_vs_rtol)))
+    curves: dict[str, list[SolverCell]] = {}
+    for cell in sorted(study.error_vs_rtol, key=work):
+        if cell.theta0 == theta0 and math.isfinite(cell.max_error) and cell.max_error > 0:
+            curves.setdefault(cell.solver, []).append(cell)
+    figure, axes = wide_figure(f"{title}, θ₀ = {theta0!r} rad", top=0.92)
+    draw_curves(axes, curves, ink, work)
+    axes.set_xlabel(label)
+    return figure

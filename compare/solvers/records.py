@@ -1,0 +1,109 @@
+"""What a study of solvers found: frozen records, which tables and plots show and nothing else does."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+__all__ = ["EventCell", "SolverCell", "SolverEntry", "SolverStudy"]
+
+
+@dataclass(frozen=True)
+class SolverEntry:
+    """A solver of the study, whether it is here or not.
+
+    Attributes:
+        version: of its package; None where it is missing.
+        install: the command that installs it.
+        call: the call in one line.
+        dial: what its tolerance is called, or what stands in its place.
+        counts: what its evaluations are.
+    """
+
+    solver: str
+    package: str
+    version: str | None
+    install: str
+    call: str
+    dial: str
+    counts: str
+
+
+@dataclass(frozen=True)
+class SolverCell:
+    """One solver at one tolerance.
+
+    Attributes:
+        rtol: the tolerance that was asked for, relative and absolute.
+        used: what the solver worked with, on its own dial; NaN where it failed.
+        theta0: amplitude in rad.
+        max_error: largest |theta - exact| over the times, in rad; NaN where it failed.
+        end_error: |theta - exact| at the last time, in rad.
+        velocity_error: largest |omega - exact| over the times, in rad/s.
+        evaluations: what it took, in the solver's own count; None where it failed.
+        seconds: the shortest of a few calls, without what is compiled before the first; None where it failed.
+        failure: the solver's own message where it failed, or "".
+        said: the solver's warnings.
+        stopped: whether it failed because its work was bounded.
+    """
+
+    solver: str
+    rtol: float
+    used: float
+    theta0: float
+    max_error: float
+    end_error: float
+    velocity_error: float
+    evaluations: int | None
+    seconds: float | None
+    failure: str
+    said: str
+    stopped: bool
+
+    @property
+    def floor(self) -> bool:
+        """A cell is never marked as rounding: a tolerance says nothing of the floor."""
+        return False
+
+
+@dataclass(frozen=True)
+class EventCell:
+    """The events that one solver found at one tolerance, against the proven ones.
+
+    Attributes:
+        expected: how many it was to find: all of them, or one where it stops at the first.
+        matched: how many of those it found.
+        spurious: how many it found besides.
+        max_error: largest |t - exact| over the matched ones, in s; NaN where there are none.
+        failure: the solver's own message where it failed, or "".
+    """
+
+    solver: str
+    rtol: float
+    theta0: float
+    expected: int
+    matched: int
+    spurious: int
+    max_error: float
+    failure: str
+
+
+@dataclass(frozen=True)
+class SolverStudy:
+    """Everything a table or plot needs.
+
+    Attributes:
+        problem: name of the problem, such as "pendulum".
+        parameters: its parameters and the study's.
+        reference: where the truth comes from.
+        engine: how the solvers were called.
+        solvers: all that were asked for, missing ones included.
+    """
+
+    problem: str
+    parameters: dict[str, Any]
+    reference: dict[str, Any]
+    engine: dict[str, Any]
+    solvers: tuple[SolverEntry, ...]
+    error_vs_rtol: tuple[SolverCell, ...]
+    events: tuple[EventCell, ...]

@@ -1,0 +1,195 @@
+"""A study of solvers as readable tables: errors, evaluations and seconds against tolerance, events, what was said."""
+
+from __future__ import annotations
+
+import math
+import textwrap
+from typing import TYPE_CHECKING
+
+from compare import grid
+from compare.grid import Column, Grid, Section
+from compare.rendering import Tables
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator, Sequence
+
+    from compare.solvers.records import EventCell, SolverCell, SolverStudy
+
+__all__ = ["COLUMNS", "TABLES", "sections"]
+
+COLUMNS = {
+    "solvers": ("solver", "package", "version", "install", "call", "dial", "counts"),
+    "error_vs_rtol": (
+        "solver",
+        "rtol",
+        "used",
+        "theta0",
+        "max_error",
+        "end_error",
+        "velocity_error",
+        "evaluations",
+        "seconds",
+        "failure",
+        "said",
+        "stopped",
+    ),
+    "events": ("solver", "rtol", "theta0", "expected", "matched", "spurious", "max_error", "failure"),
+}
+OTHER = "^"
+NARROWEST = 30
+_NO_STATES = "- means that the solver failed or was stopped; what it said is in the last table"
+_OTHER_NOTE = f"{OTHER} means that the solver worked with another tolerance than the one asked for; see the last table"
+_EVENTS_NOTE = "n of m means that it found n of the m passages; +k that it found k more, where there are none"
+TOLERANCES = {"rtol", "tol"}
+
+
+def sections(study: SolverStudy, width: int = 100) -> Iterator[Section]:
+    """The readable tables: who was asked, then amplitude by amplitude what they answered, then what they said."""
+    yield from _who(study, width)
+    for theta0 in dict.fromkeys(cell.theta0 for cell in study.error_vs_rtol):
+        at = f"theta0 = {theta0!r} rad"
+        cells = [cell for cell in study.error_vs_rtol if cell.theta0 == theta0]
+        yield from _cells(study, cells, at, width)
+        events = [event for event in study.events if event.theta0 == theta0]
+        if events:
+            yield _events(events, at, width)
+    yield from _said(study, width)
+
+
+def _who(study: SolverStudy, width: int) -> Iterator[Section]:
+    here = [entry for entry in study.solvers if entry.version is not None]
+    if here:
+        rows = [(entry.solver, entry.version or "", entry.call) for entry in here]
+        columns = Column("solver", left=True), Column("version", left=True), Column("call", left=True)
+        yield Section("solvers", "Solvers, and how each is called", (_folded(columns, rows, width),))
+    missing = {entry.package: entry.install for entry in study.solvers if entry.version is None}
+    if missing:
+        labels = Column("package", left=True), Column("what installs it", left=True)
+        yield Section("missing-solvers", "Missing", (Grid(labels, tuple(missing.items())),))
+
+
+def _cells(study: SolverStudy, cells: Sequence[SolverCell], at: str, width: int) -> Iterator[Section]:
+    dials = {entry.solver: entry.dial for entry in study.solvers}
+    other = any(map(_is_other, cells, (dials[cell.solver] for cell in cells)))
+    failed = any(cell.failure for cell in cells)
+    notes = [note for note, applies in ((_NO_STATES, failed), (_OTHER_NOTE, other)) if applies]
+    notes += [f"{dial} stands for rtol with {', '.join(who)}" for dial, who in _other_dials(dials, cells).items()]
+
+    def error(cell: SolverCell) -> str:
+        return _digits(cell.max_error) + (OTHER if _is_other(cell, dials[cell.solver]) else "")
+
+    title = f"Error against rtol, {at}: largest |theta - exact|, in rad"
+    yield _table(f"error-vs-rtol-{grid.slug(at)}", title, cells, error, width, notes)
+    counts = {entry.solver: entry.counts for entry in study.solvers}
+    usual = "calls of the right-hand side"
+    strange = [f"{name}: {counts[name]}" for name in dict.fromkeys(c.solver for c in cells) if counts[name] != usual]
+    title = f"Evaluations against rtol, {at}: {usual}"
+    yield _table(f"evaluations-{grid.slug(at)}", title, cells, lambda cell: _count(cell.evaluations), width, strange)
+    title = f"Seconds against rtol, {at}"
+    yield _table(f"seconds-{grid.slug(at)}", title, cells, lambda cell: _digits(cell.seconds), width)
+
+
+def _is_other(cell: SolverCell, dial: str) -> bool:
+    """Whether the solver worked with a tolerance of its own."""
+    return dial in TOLERANCES and math.isfinite(cell.used) and cell.used != cell.rtol
+
+
+def _other_dials(dials: dict[str, str], cells: Sequence[SolverCell]) -> dict[str, list[str]]:
+    found: dict[str, list[str]] = {}
+    for name in dict.fromkeys(cell.solver for cell in cells):
+        if dials[name] != "rtol":
+            found.setdefault(dials[name], []).append(name)
+    return found
+
+
+def _events(events: Sequence[EventCell], at: str, width: int) -> Section:
+    def entry(event: EventCell) -> str:
+        few = f" {event.matched} of {event.expected}" if event.matched < event.expected else ""
+        more = f" +{event.spurious}" if event.spurious else ""
+        return _digits(event.max_error) + few + more
+
+    title = f"Events, {at}: largest |t - exact| over the passages through the bottom, in s"
+    first = [event.solver for event in events if event.expected == 1]
+    notes = [_EVENTS_NOTE] if any(event.matched < event.expected or event.spurious for event in events) else []
+    notes += [f"the first passage only: {', '.join(dict.fromkeys(first))}"] if first else []
+    return _table(f"events-{grid.slug(at)}", title, events, entry, width, notes)
+
+
+def _said(study: SolverStudy, width: int) -> Iterator[Section]:
+    """Failures, warnings and tolerances of their own: one row for all tolerances at which a solver said the same."""
+    dials = {entry.solver: entry.dial for entry in study.solvers}
+    said: dict[tuple[str, str], list[float]] = {}
+    for cell in study.error_vs_rtol:
+        own = [f"{dials[cell.solver]} = {cell.used:.1e}"] if _is_other(cell, dials[cell.solver]) else []
+        for message in (*own, cell.failure, cell.said):
+            if message:
+                said.setdefault((cell.solver, message), []).append(cell.rtol)
+    for event in study.events:
+        if event.failure:
+            said.setdefault((event.solver, f"events: {event.failure}"), []).append(event.rtol)
+    if not said:
+        return
+    rows = [(who, ", ".join(map(_brief, dict.fromkeys(at))), what) for (who, what), at in said.items()]
+    columns = Column("solver", left=True), Column("rtol", left=True), Column("what it said", left=True)
+    yield Section("said", "What the solvers said", (_folded(columns, rows, width),))
+
+
+def _table(
+    name: str,
+    title: str,
+    cells: Sequence[SolverCell] | Sequence[EventCell],
+    text: Callable[..., str],
+    width: int,
+    notes: Sequence[str] = (),
+) -> Section:
+    """Solvers down, tolerances across, over as many grids as the width needs."""
+    found = {(cell.solver, cell.rtol): text(cell) for cell in cells}
+    solvers = list(dict.fromkeys(cell.solver for cell in cells))
+
+    def build(tolerances: Sequence[float]) -> Grid:
+        columns = [Column("solver", left=True), *(Column(_brief(rtol)) for rtol in tolerances)]
+        return Grid(
+            tuple(columns), tuple((who, *(found.get((who, rtol), "-") for rtol in tolerances)) for who in solvers)
+        )
+
+    tolerances = list(dict.fromkeys(cell.rtol for cell in cells))
+    for parts in range(1, len(tolerances) + 1):
+        grids = [build(part) for part in _parts(tolerances, parts)]
+        if all(grid.text_width(one) <= width for one in grids):
+            break
+    return Section(name, title, tuple(grids), "\n".join(notes))
+
+
+def _parts(tolerances: Sequence[float], count: int) -> list[Sequence[float]]:
+    """The tolerances in consecutive parts of about one length."""
+    size = -(-len(tolerances) // count)
+    return [tolerances[i : i + size] for i in range(0, len(tolerances), size)]
+
+
+def _folded(columns: Sequence[Column], rows: Sequence[tuple[str, ...]], width: int) -> Grid:
+    """The rows, the last column folded to what the others leave of the width."""
+    others = [max(len(column.label), *(len(row[i]) for row in rows)) + 2 for i, column in enumerate(columns[:-1])]
+    room = max(width - sum(others), NARROWEST)
+    lines = []
+    for row in rows:
+        first, *rest = textwrap.wrap(row[-1], room) or [""]
+        lines.append((*row[:-1], first))
+        lines += [(*("" for _ in row[:-1]), line) for line in rest]
+    return Grid(tuple(columns), tuple(lines))
+
+
+def _brief(rtol: float) -> str:
+    """The tolerance as people write it, where one digit says it."""
+    return f"{rtol:.0e}" if float(f"{rtol:.0e}") == rtol else repr(rtol)
+
+
+def _digits(value: float | None) -> str:
+    return "-" if value is None or not math.isfinite(value) else f"{value:.1e}"
+
+
+def _count(value: int | None) -> str:
+    return "-" if value is None else str(value)
+
+
+TABLES = Tables(sections, COLUMNS, prefix="solvers-")
+"""How a study of solvers is shown."""

@@ -1,0 +1,143 @@
+"""Adaptive solvers on the released pendulum: error against tolerance, evaluations and seconds, and their events."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from compare.scores import SAMPLES
+from compare.scoring import some
+from compare.solvers.catalogue import SOLVERS, select
+from compare.solvers.events import event_of, exact_events
+from compare.solvers.records import SolverEntry, SolverStudy
+from compare.solvers.score import score_events, score_solver
+from compare.solvers.solver import Question
+from reference import Pendulum, __version__
+from reference.certify import ROUTES
+from reference.exact import as_number, exact, positive
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator, Sequence
+
+    from compare.solvers.records import EventCell, SolverCell
+    from compare.solvers.solver import Solver
+    from reference.problem import Problem
+
+__all__ = ["DEFAULT_LIMIT", "DEFAULT_RTOL", "questions", "scored", "study"]
+
+DEFAULT_RTOL = tuple(float(f"1e-{k}") for k in range(3, 14))
+DEFAULT_LIMIT = 200_000
+
+
+def study(
+    theta0: Sequence[Any] = (1.0,),
+    g: Any = 9.81,
+    length: Any = 1.0,
+    t_end: Any = 10.0,
+    rtol: Sequence[float] = DEFAULT_RTOL,
+    solvers: Sequence[str] | None = None,
+    max_evaluations: int = DEFAULT_LIMIT,
+    progress: Callable[[str], None] | None = None,
+) -> SolverStudy:
+    """Ask solvers for the pendulum released at each amplitude, over 0 <= t <= t_end at each tolerance.
+
+    Args:
+        theta0: amplitudes in rad, each in (0, pi).
+        g: acceleration of gravity in m/s^2.
+        length: length in m.
+        t_end: the last time in s.
+        rtol: relative tolerances, each in (0, 1); the absolute one is the same.
+        solvers: names of solvers or packages; all if None.
+        max_evaluations: of the right-hand side that a solver is granted for one answer.
+        progress: called with a line on what is being done.
+
+    Raises:
+        ValueError: an argument is outside its range, or a name unknown.
+        TypeError: an argument is of the wrong kind.
+    """
+    problems = [Pendulum(amplitude, g, length) for amplitude in some(theta0, "theta0")]
+    if len({float(problem.theta0) for problem in problems}) < len(problems):
+        raise ValueError("theta0 has one amplitude twice, to a double's precision; each is accepted once.")
+    chosen = SOLVERS if solvers is None else select(some(solvers, "solvers"))
+    asked = [list(questions(problem, t_end, rtol, max_evaluations)) for problem in problems]
+    cells: list[SolverCell] = []
+    events: list[EventCell] = []
+    for solver in chosen:
+        for series in asked if solver.version is not None else ():
+            if progress is not None:
+                progress(solver.name)
+            found = scored(solver, series)
+            cells += found[0]
+            events += found[1]
+    return SolverStudy(
+        problem="pendulum",
+        parameters={
+            "theta0": [as_number(problem.theta0) for problem in problems],
+            "g": as_number(problems[0].g),
+            "length": as_number(problems[0].length),
+            "t_end": asked[0][0].end,
+            "rtol": [question.rtol for question in asked[0]],
+            "samples": len(asked[0][0].times) - 1,
+        },
+        reference={
+            "version": __version__,
+            "routes": ["enclosure", *ROUTES],
+            "definition": "theta'' = -(g/length) sin(theta), theta(0) = theta0, theta'(0) = 0",
+            "truth": "the state at exactly the binary64 times asked for, and the passages through the bottom, proven",
+        },
+        engine=facts(max_evaluations),
+        solvers=tuple(_entry(solver) for solver in chosen),
+        error_vs_rtol=tuple(cells),
+        events=tuple(events),
+    )
+
+
+def facts(limit: int) -> dict[str, Any]:
+    """How solvers are called, for the header of a table."""
+    return {
+        "precision": "float64",
+        "tolerance": "rtol, and atol = rtol; where a solver takes a step, rtol^(1/order)/rate",
+        "evaluations": f"counted in the right-hand side itself; a solver is stopped after {limit}",
+        "seconds": "the shortest of three calls, or one where it is long; what compiles has compiled before",
+    }
+
+
+def questions(problem: Problem, t_end: Any, rtol: Sequence[float], limit: int) -> Iterator[Question]:
+    """The questions of one problem, from the loosest tolerance to the tightest.
+
+    Raises:
+        ValueError: an argument is outside its range.
+        TypeError: ``rtol`` is no sequence.
+    """
+    end = exact(t_end, "t_end")
+    if end <= 0 or float(end) in {0.0, np.inf}:
+        raise ValueError(f"t_end is {as_number(end)}; a positive number is accepted.")
+    tolerances = [exact(value, "rtol") for value in some(rtol, "rtol")]
+    for tolerance in tolerances:
+        if not 0 < tolerance < 1 or not float(tolerance):
+            raise ValueError(f"rtol is {as_number(tolerance)}; a number with 0 < rtol < 1 is accepted.")
+    times = np.linspace(0.0, float(end), SAMPLES + 1)
+    for tolerance in sorted(set(tolerances), reverse=True):
+        yield Question(problem, times, float(tolerance), positive(limit, "max_evaluations"), event_of(problem))
+
+
+def scored(solver: Solver, series: Sequence[Question]) -> tuple[list[SolverCell], list[EventCell]]:
+    """Score a solver at each tolerance of one problem; where it gave no states, it is not asked for events."""
+    exact_times = exact_events(series[0].problem, series[0].end)
+    cells = score_solver(solver, series)
+    answered = [question for question, cell in zip(series, cells, strict=True) if not cell.failure]
+    events = [score_events(solver, question, exact_times) for question in answered]
+    return cells, [event for event in events if event is not None]
+
+
+def _entry(solver: Solver) -> SolverEntry:
+    return SolverEntry(
+        solver=solver.name,
+        package=solver.package,
+        version=solver.version,
+        install=solver.install,
+        call=solver.call,
+        dial=solver.dial,
+        counts=solver.counts,
+    )
