@@ -83,12 +83,12 @@ BOUNDARY = Layout(
 LAYOUTS = (FAMILY, MOTION, BOUNDARY)
 
 LOWEST = (0.01, *(k / 20 for k in range(1, 20)), 0.99)
-ENDS = tuple((z, phi) for z in (1.0, 0.875, 0.75, 0.5, 0.25) for phi in (0.125, 0.25, 0.5, 1.0, 1.5))
+ENDS = tuple((z, phi) for z in (1.0, 0.75, 0.5, 0.25) for phi in (0.25, 0.5, 1.0, 1.5))
 
 
 def core() -> tuple[Group, ...]:
     """The grids of the dataset that ships with the package."""
-    epsilon = np.array([-8, -4, -2, -1, 1, 2, 4, 8]) / 16
+    epsilon = np.array([-8, -1, 1, 8]) / 16
     return (
         Group(FAMILY, {}, {"z0": LOWEST, "psi": np.arange(101) / 32, "epsilon": epsilon}),
         Group(MOTION, {}, {"z0": LOWEST, "tau": np.arange(97) / 32}),
