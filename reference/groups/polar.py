@@ -90,8 +90,8 @@ def core() -> tuple[Group, ...]:
     """The grids of the dataset that ships with the package."""
     epsilon = np.array([-8, -1, 1, 8]) / 16
     return (
-        Group(FAMILY, {}, {"z0": LOWEST, "psi": np.arange(101) / 32, "epsilon": epsilon}),
-        Group(MOTION, {}, {"z0": LOWEST, "tau": np.arange(97) / 32}),
+        Group(FAMILY, {}, {"z0": LOWEST, "psi": np.arange(202) / 64, "epsilon": epsilon}),
+        Group(MOTION, {}, {"z0": LOWEST, "tau": np.arange(193) / 64}),
         Group(BOUNDARY, {}, {"end_z": [end[0] for end in ENDS], "end_phi": [end[1] for end in ENDS]}),
     )
 
