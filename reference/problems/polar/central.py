@@ -1,0 +1,254 @@
+"""A brachistochrone in a central field as a problem: what its two forms and all laws of force share."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cached_property, lru_cache, partial
+from typing import TYPE_CHECKING, Any, ClassVar
+
+from flint import ctx
+from mpmath import mp
+
+from reference.arithmetic import BALL, MPMATH
+from reference.exact import as_number, exact
+from reference.problem import Problem, Row
+from reference.problems.polar.boundary import end_of, lowest_point
+from reference.problems.polar.numerical import Numerical
+from reference.problems.polar.taylor import TaylorExtremal
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from reference.arithmetic import Arithmetic
+    from reference.certify import Certified
+    from reference.problems.polar.extremal import End, Extremal, Field
+
+__all__ = ["BODIES", "CentralBrachistochrone", "rational_root"]
+
+BODIES = {"earth": Fraction("6.6743e-11") * Fraction("5.9722e24")}
+"""G M in m^3/s^2 of the bodies that have a name; the Earth's is the product of the constants of the thesis."""
+SECONDS = ("time_unit", "descent_seconds", "arrival_seconds", "si_curve", "si_state")
+TAYLOR_PSI = 16
+TAYLOR_TAU = 32
+"""The Taylor route serves 0 <= psi <= TAYLOR_PSI and 0 <= tau <= TAYLOR_TAU sqrt(1 - z0), ten descents or more."""
+
+
+@dataclass(frozen=True, repr=False)
+class CentralBrachistochrone(Problem):
+    """The curve of fastest descent in a central field, from rest at (1, 0), by its lowest point or by its end.
+
+    Subclasses set ``z0`` or ``end``, and ``unit``, and name their law of force.
+    """
+
+    z0: Fraction | None
+    end: tuple[Fraction, Fraction] | None
+    r0: Fraction | None
+
+    state_names: ClassVar[tuple[str, ...]] = ("z", "z_rate", "phi")
+    max_bits: ClassVar[int] = 1 << 14
+    field: ClassVar[Field]
+
+    @staticmethod
+    def extremal(m: Any, z0: Any, end: End | None = None, unit: tuple[Any, Any] | None = None) -> Extremal:
+        """The closed form in balls."""
+        raise NotImplementedError
+
+    @property
+    def unit(self) -> tuple[Fraction, Fraction] | None:
+        """The length in m and the square of the time in s^2 that stand for 1, where they are known."""
+        raise NotImplementedError
+
+    def _set_path(self, z0: Any, end: Any) -> None:
+        """Take the lowest point or the end.
+
+        Raises:
+            ValueError: not exactly one is given, it is out of range, or no smooth extremal reaches the end.
+        """
+        if (z0 is None) == (end is None):
+            raise ValueError("either z0, the lowest point, or end, a pair (R, PHI), is accepted.")
+        lowest = None if z0 is None else exact(z0, "z0")
+        if lowest is not None and not 0 < lowest < 1:
+            raise ValueError(f"z0 is {as_number(lowest)}; a lowest point with 0 < z0 < 1 is accepted.")
+        if end is not None and (isinstance(end, str) or not hasattr(end, "__len__") or len(end) != 2):
+            raise ValueError(f"end is {end!r}; a pair (R, PHI) is accepted.")
+        object.__setattr__(self, "z0", lowest)
+        object.__setattr__(self, "end", None if end is None else tuple(exact(value, "end") for value in end))
+        _ = self.goal
+
+    def _set_positive(self, name: str, value: Any) -> None:
+        """Take a dimension in SI units.
+
+        Raises:
+            ValueError: it is not positive.
+        """
+        number = None if value is None else exact(value, name)
+        if number is not None and number <= 0:
+            raise ValueError(f"{name} is {as_number(number)}; a positive number is accepted.")
+        object.__setattr__(self, name, number)
+
+    def _spelled(self, *dimensions: str) -> str:
+        """How the path and the given dimensions are written as arguments."""
+        if self.z0 is not None:
+            path = f"z0={as_number(self.z0)!r}"
+        else:
+            path = f"end=({', '.join(repr(as_number(value)) for value in self.end or ())})"
+        known = [(name, getattr(self, name)) for name in dimensions]
+        return ", ".join([path, *(f"{name}={as_number(value)!r}" for name, value in known if value is not None)])
+
+    @cached_property
+    def goal(self) -> End | None:
+        """The end, and on which branch it lies; None where the lowest point is given."""
+        return None if self.end is None else end_of(*self.end, self.field, self.extremal)
+
+    @property
+    def after_lowest(self) -> bool:
+        """Whether the path has passed its lowest point when it ends."""
+        return self.goal is None or self.goal.after
+
+    def serves(self, row: str) -> bool:
+        """Whether this form of the problem has the row: z0 where it is found, seconds where the units are known."""
+        if row in SECONDS and self.unit is None:
+            return False
+        return super().serves(row) and (row != "z0" or self.z0 is None)
+
+    def row(self, name: str) -> Row:
+        """The row of this name.
+
+        Raises:
+            KeyError: there is none.
+            ValueError: this form of the problem has no such thing.
+        """
+        if super().serves(name) and not self.serves(name):
+            why = "z0 is given" if name == "z0" else "its dimensions in SI units are not given"
+            raise ValueError(f"{name} is not of {self!r}: {why}.")
+        return super().row(name)
+
+    def _lowest(self) -> Fraction:
+        if self.z0 is None:
+            raise ValueError(f"{self!r} has an irrational lowest point; z0 is accepted where a rational one is needed.")
+        return self.z0
+
+    @property
+    def parameters(self) -> dict[str, Fraction]:
+        """kappa, the square of Bouguer's constant.
+
+        Raises:
+            ValueError: the problem is given by its end, and kappa is irrational.
+        """
+        return {"kappa": self.field.kappa(self._lowest())}
+
+    @property
+    def start(self) -> tuple[Fraction, ...]:
+        return Fraction(1), Fraction(0), Fraction(0)
+
+    @classmethod
+    def derivative(cls, m: Arithmetic, y: Sequence[Any], p: dict[str, Any]) -> tuple[Any, ...]:
+        """(z', z'', phi') in tau."""
+        acceleration, turn = cls.field.motion(m, y[0], p["kappa"])
+        return y[1], acceleration, turn
+
+    @classmethod
+    def invariant(cls, m: Arithmetic, y: Sequence[Any], p: dict[str, Any]) -> Any:
+        """The energy of z alone, which is 1 along the exact motion; the field has no rest to count from."""
+        del m
+        return cls.field.energy(y[0], y[1], p["kappa"])
+
+    def rate(self) -> float:
+        """The root of a bound on |dz''/dz| along the path."""
+        return float(mp.sqrt(MPMATH.number(self.field.rate_squared(self._lowest()))))
+
+    def closed_form(self, m: Any) -> Extremal:
+        """The closed form in balls; in mpmath the form by numerical integration."""
+        return _form(self, m is BALL, ctx.prec if m is BALL else mp.prec)
+
+    def taylor_form(self, bits: int) -> TaylorExtremal:
+        """The flow of the equations of the motion in tau and of the curve in psi."""
+        return _taylor_form(self, bits)
+
+    def within_taylor(self, row: str, arguments: Sequence[Any]) -> bool:
+        """Whether every argument is of the first turns of psi, or of a moderate time."""
+        over = self.row(row).over
+        if over == "psi":
+            return all(0 <= psi <= TAYLOR_PSI for psi in arguments)
+        scales = {"tau": Fraction(1), "time": Fraction(0) if self.unit is None else self.unit[1]}
+        if over not in scales:
+            return True
+        z0 = Fraction(float(self.certified("z0"))) if self.z0 is None else self.z0
+        limit = TAYLOR_TAU**2 * (1 - z0) * scales[over]
+        return all(t >= 0 and t * t <= limit for t in arguments)
+
+    def certified(self, row: str, argument: Any = None, component: int = 0) -> Certified:
+        """One number of a row as a proven scalar.
+
+        Raises:
+            KeyError: there is no such row.
+            ValueError: the argument is out of range.
+        """
+        self._check(row, argument)
+        return super().certified(row, argument, component)
+
+    def _check(self, row: str, argument: Any) -> None:
+        over = self.row(row).over
+        lowest = {"height": Fraction(0), "z": self.z0 or Fraction(0), "epsilon": Fraction(-1)}
+        if over in lowest and not lowest[over] <= argument <= 1:
+            raise ValueError(
+                f"{over} is {as_number(argument)}; a number with {as_number(lowest[over])} <= {over} <= 1 is accepted."
+            )
+
+    def exact_row(self, row: str, argument: Any) -> tuple[Fraction | None, ...] | None:
+        """What is rational: the release, kappa and heights of a rational lowest point, and no change to the curve."""
+        self._check(row, argument)
+        zero, one = Fraction(0), Fraction(1)
+        if row == "kappa" and self.z0 is not None:
+            return (self.field.kappa(self.z0),)
+        if row == "time_unit" and self.unit is not None:
+            return (rational_root(self.unit[1]),)
+        if row == "by_height" and (self.z0 is not None or argument == 1):
+            z = one if argument == 1 else self.z0 + (1 - self.z0) * argument  # type: ignore[operator]
+            return (z, zero, zero) if argument == 1 else (z, None, None)
+        if row == "half_angle":
+            return (self.end[1] / 2,) if self.end is not None and self.end[0] == 1 else None
+        if argument is None or argument != (1 if row == "by_z" else 0):
+            return None
+        length = None if self.unit is None else self.unit[0]
+        at_start: dict[str, tuple[Fraction | None, ...]] = {
+            "state": (one, zero, zero),
+            "curve": (one, zero, zero),
+            "by_z": (zero, zero),
+            "neighbour_gap": (zero,),
+            "si_curve": (length, zero),
+            "si_state": (length, zero, zero),
+        }
+        return at_start.get(row)
+
+    def working_bits(self, arguments: Sequence[Any]) -> int:
+        """The digits of z0 and of 1 - z0, and of whole turns."""
+        del arguments
+        near = self.z0 or Fraction(1, 2)
+        return int(1 / near).bit_length() // 2 + 2 * int(1 / (1 - near)).bit_length()
+
+
+def rational_root(square: Fraction) -> Fraction | None:
+    """The root of a positive rational, where it is rational."""
+    root = Fraction(math.isqrt(square.numerator), math.isqrt(square.denominator))
+    return root if root * root == square else None
+
+
+@lru_cache(maxsize=8)
+def _form(problem: CentralBrachistochrone, in_balls: bool, bits: int) -> Extremal:
+    """A form at a working precision, which is in force: what its rows share is then computed once."""
+    del bits
+    m: Any = BALL if in_balls else MPMATH
+    extremal = problem.extremal if in_balls else partial(Numerical, problem.field)
+    unit = None if problem.unit is None else (m.number(problem.unit[0]), m.number(problem.unit[1]))
+    goal = problem.goal
+    z0 = problem.z0 if goal is None else lowest_point(m, goal, problem.field, extremal)
+    return extremal(m, z0, goal, unit)
+
+
+@lru_cache(maxsize=8)
+def _taylor_form(problem: CentralBrachistochrone, bits: int) -> TaylorExtremal:
+    form: Any = problem.closed_form(MPMATH)
+    return TaylorExtremal(form, None if problem.z0 is None else problem.parameters["kappa"], bits)

@@ -1,0 +1,87 @@
+"""Gauss's rule over panels no wider than the integrands are smooth, and the time table of an extremal in floats."""
+
+from __future__ import annotations
+
+import cmath
+import math
+from bisect import bisect_right
+from functools import lru_cache
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from reference.arithmetic import NUMPY
+
+if TYPE_CHECKING:
+    from reference.problems.polar.extremal import Field
+
+__all__ = ["Panels", "Schedule"]
+
+NEARNESS = 4
+"""A panel reaches from its middle at most this part of the way to the nearest singularity: per node of Gauss's rule an
+integral gains at least log2(4 + sqrt(17)) = 3 bits twice."""
+FLOAT_NODES = 12
+
+
+class Panels:
+    """Where the rates of an extremal are singular in complex psi, and the panels that keep away from there."""
+
+    def __init__(self, field: Field, z0: float) -> None:
+        squares = (complex(*point) for point in field.singular(NUMPY, z0))
+        first = [2 * cmath.acos(cmath.sqrt(square)) for square in squares]
+        self._singular = first + [2 * math.pi - point for point in first]
+
+    def distance(self, psi: float) -> float:
+        """From a real psi to the nearest singularity."""
+        return min(abs(psi % (2 * math.pi) - point) for point in self._singular)
+
+    def between(self, low: float, high: float) -> list[float]:
+        """The ends of the panels from low to high, the first left out."""
+        middle = (low + high) / 2
+        if NEARNESS * abs(high - low) <= 2 * self.distance(middle):
+            return [high]
+        return [*self.between(low, middle), *self.between(middle, high)]
+
+
+@lru_cache(maxsize=1)
+def _rule() -> tuple[np.ndarray, np.ndarray]:
+    """Gauss's nodes and weights on [-1, 1]."""
+    nodes, weights = np.polynomial.legendre.leggauss(FLOAT_NODES)
+    return nodes, weights
+
+
+class Schedule:
+    """tau at the ends of panels from the release to the lowest point, in floats: where to look for a given tau."""
+
+    def __init__(self, field: Field, z0: float) -> None:
+        self._field, self._z0 = field, z0
+        self._psi = [0.0, *Panels(field, z0).between(0.0, math.pi)]
+        self._tau = [0.0]
+        for low, high in zip(self._psi[:-1], self._psi[1:], strict=True):
+            self._tau.append(self._tau[-1] + self._passed(low, high))
+
+    def _rate(self, psi: Any) -> Any:
+        return self._field.rates(NUMPY, self._z0, np.sin(psi / 2) ** 2, np.cos(psi / 2) ** 2)[1]
+
+    def _passed(self, low: float, high: float) -> float:
+        nodes, weights = _rule()
+        half = (high - low) / 2
+        return half * float(weights @ np.broadcast_to(self._rate(low + half + half * nodes), nodes.shape))
+
+    def psi_at(self, tau: float) -> float:
+        """psi at a tau within a descent time of 0, to about the accuracy of floats: odd in tau."""
+        if tau < 0:
+            return -self.psi_at(-tau)
+        i = min(bisect_right(self._tau, tau), len(self._tau) - 1)
+        start, low, high = self._psi[i - 1], self._psi[i - 1], self._psi[i]
+        psi = (low + high) / 2
+        for _ in range(60):
+            late = self._tau[i - 1] + self._passed(start, psi) - tau
+            low, high = (low, psi) if late > 0 else (psi, high)
+            moved = psi - late / float(self._rate(psi))
+            if not low <= moved <= high:
+                moved = (low + high) / 2
+            if abs(moved - psi) <= 1e-15 * psi:
+                return moved
+            psi = moved
+        return psi

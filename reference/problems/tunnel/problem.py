@@ -1,0 +1,84 @@
+"""The fastest tunnel through a planet of uniform density, as a problem: exact parameters, proven answers."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, ClassVar
+
+from reference.exact import exact
+from reference.problems.polar.central import BODIES, CentralBrachistochrone, rational_root
+from reference.problems.tunnel.equations import UNIFORM_BALL
+from reference.problems.tunnel.hypocycloid import Hypocycloid
+from reference.problems.tunnel.quantities import ROWS
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+    from fractions import Fraction
+
+    from reference.problem import Row
+    from reference.problems.polar.extremal import Field
+
+__all__ = ["Tunnel"]
+
+
+@dataclass(frozen=True, repr=False)
+class Tunnel(CentralBrachistochrone):
+    """The curve of fastest descent through a planet of uniform density, from rest at its surface: a hypocycloid.
+
+    Args:
+        z0: the lowest point over the planet's radius r0, 0 < z0 < 1; the tunnel goes on to the surface.
+        end: or the end (R, PHI): its radius over r0, 0 < R <= 1, and its angle in rad, 0 < PHI < pi.
+        r0: the radius in m, for rows in m and s.
+        g: gravity at the surface in m/s^2; both or neither.
+        body: instead of ``g`` the name of a body, "earth": g = G M/r0^2.
+
+    Each number is exact: a float at its binary64 value, a string or Fraction as the rational it spells.  Times are in
+    units of sqrt(r0/g).  A real planet is denser inside: the uniform one is an idealisation.
+
+    The state in tau is that of z'' = -z + kappa (1 - z^4)/z^3, phi' = sqrt(kappa) (1 - z^2)/z^2, which comes to rest at
+    the surface after two descent times.  There the tunnel ends; the equation goes on, down again, with that period in
+    z and another 2 half_angle in phi, and so does ``state``.
+
+    Raises:
+        ValueError: a parameter is outside its range or not finite, or no smooth extremal reaches the end.
+        TypeError: a parameter is no real number.
+    """
+
+    g: Fraction | None
+
+    name: ClassVar[str] = "tunnel"
+    rows: ClassVar[tuple[Row, ...]] = ROWS
+    field: ClassVar[Field] = UNIFORM_BALL
+    extremal = Hypocycloid
+
+    def __init__(self, z0: Any = None, end: Any = None, r0: Any = None, g: Any = None, body: str | None = None) -> None:
+        if body is not None and (g is not None or body not in BODIES):
+            raise ValueError(f"body is {body!r}; one of {', '.join(BODIES)} is accepted, instead of g.")
+        if (r0 is None) != (g is None and body is None):
+            raise ValueError("r0 and g, or r0 and body, are accepted together: both or neither.")
+        self._set_positive("r0", r0)
+        self._set_positive("g", g if body is None else BODIES[body] / exact(r0, "r0") ** 2)
+        self._set_path(z0, end)
+
+    def __repr__(self) -> str:
+        return f"Tunnel({self._spelled('r0', 'g')})"
+
+    @property
+    def unit(self) -> tuple[Fraction, Fraction] | None:
+        """r0 and r0/g."""
+        return None if self.r0 is None or self.g is None else (self.r0, self.r0 / self.g)
+
+    def exact_row(self, row: str, argument: Any) -> tuple[Fraction | None, ...] | None:
+        """Besides, times at a rational psi, where sqrt(1 - z0^2) and the unit of time make them rational."""
+        if row in {"curve", "si_curve"} and self.z0 is not None and argument != 0:
+            squared = (1 - self.z0**2) * (1 if row == "curve" or self.unit is None else self.unit[1])
+            pace = rational_root(squared)
+            time = None if pace is None else pace * argument / 2
+            return (None, None, time) if row == "curve" else (None, time)
+        return super().exact_row(row, argument)
+
+    def neighbour(self, rounding: Callable[[Fraction], Fraction], epsilon: Fraction) -> Tunnel:
+        """The tunnel whose lowest point is higher by 2^-20 of its distance to 0 or 1, or by 16 roundings."""
+        z0 = self._lowest()
+        shift = max(min(z0, 1 - z0) / (1 << 20), 16 * epsilon * z0)
+        return Tunnel(rounding(z0 + shift), r0=self.r0, g=self.g)
