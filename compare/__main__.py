@@ -42,6 +42,8 @@ def _command(words: Sequence[str] | None = None) -> int:
         return 0
     if request.command == "list":
         _print(_listing(request.form))
+    elif request.command == "show":
+        _print(_method(request.options["method"], request.form))
     elif request.command == "solvers":
         _print(_shown(request, _solver_study, "compare.solvers"))
     else:
@@ -110,6 +112,14 @@ def _listing(form: str) -> str:
     from compare.methods import METHODS
 
     return listing.render(METHODS, form)
+
+
+def _method(name: str, form: str) -> str:
+    from compare import tableau_text
+    from compare.description import describe
+    from compare.methods import find
+
+    return tableau_text.render(describe(find(name)), form)
 
 
 @contextlib.contextmanager

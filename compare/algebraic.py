@@ -52,6 +52,11 @@ class Field:
     def degree(self) -> int:
         return len(self.coefficients) - 1
 
+    @property
+    def generator(self) -> Algebraic:
+        """r itself."""
+        return Algebraic(fmpq_poly([0, 1]), self)
+
     def root(self) -> arb:
         """The enclosure of r at the precision in force."""
         return _nearest_root(self, ctx.prec)
@@ -172,8 +177,7 @@ def root(radicand: int, degree: int = 2) -> Algebraic:
         ValueError: it is reducible.
     """
     powers = (f"sqrt({radicand})",) if degree == 2 else tuple(f"{radicand}^({i}/{degree})" for i in range(1, degree))
-    field = Field((-radicand, *(0,) * (degree - 1), 1), radicand ** (1 / degree), powers)
-    return Algebraic(fmpq_poly([0, 1]), field)
+    return Field((-radicand, *(0,) * (degree - 1), 1), radicand ** (1 / degree), powers).generator
 
 
 def root_of(coefficients: tuple[int, ...], near: float) -> Algebraic:
@@ -183,7 +187,7 @@ def root_of(coefficients: tuple[int, ...], near: float) -> Algebraic:
         ValueError: the polynomial is reducible.
     """
     powers = ("r", *(f"r^{i}" for i in range(2, len(coefficients) - 1)))
-    return Algebraic(fmpq_poly([0, 1]), Field(coefficients, near, powers))
+    return Field(coefficients, near, powers).generator
 
 
 def enclose(value: Coefficient | int) -> arb:

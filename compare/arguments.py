@@ -20,6 +20,7 @@ __all__ = ["COMMANDS", "Request", "parse"]
 COMMANDS = {
     "pendulum": "score integrators on the pendulum: error against N, observed order, energy drift",
     "list": "list the methods: family, order, stages, source",
+    "show": "show a method: its tableau or its flows, its proven order, its properties",
     "solvers": "score other people's solvers: error against tolerance, evaluations and seconds, events",
     "score": "judge a file of numbers from any code against the proven truth",
 }
@@ -29,7 +30,7 @@ _OPTIONS: dict[str, tuple[str | None, str]] = {
     "--g": ("G", "gravity in m/s^2 (default 9.81)"),
     "--length": ("L", "length in m (default 1)"),
     "--t-end": ("T", "end of the march in s (default 10)"),
-    "--methods": ("A,B", "methods by name (default all; see 'list'); may repeat"),
+    "--methods": ("A,B", "methods by name (default twelve; see 'list'); may repeat"),
     "--n": ("N,M", "numbers of steps (default 128, 256, ... 1048576); may repeat"),
     "--exact": (None, "take numbers as written: decimals, or fractions such as 1/3"),
     "--precision": ("P", "float32, float64 (default), longdouble, float128 or mp:BITS"),
@@ -40,6 +41,8 @@ _OPTIONS: dict[str, tuple[str | None, str]] = {
 }
 _ACCEPTED = {"pendulum": tuple(_OPTIONS), "list": ("--format",)}
 _LISTS = ("--theta0", "--methods", "--n")
+_SHOWN = tuple(form for form in FORMATS if form != "csv")
+_SHOWN_HELP = f"{', '.join(_SHOWN)} (default text)"
 _EPILOG = (
     "A number is read as binary64, as in a program, or with --exact as written.  "
     "A mistake is one sentence on stderr and exit code 2."
@@ -52,7 +55,7 @@ class Request:
 
     Attributes:
         command: one of COMMANDS.
-        options: arguments of the study, only those that were given; or the fields of a submission.
+        options: arguments of the study, only those that were given; the fields of a submission; or the method shown.
         form: one of the table formats.
         out: a folder for the results, or None.
         plots: whether figures are drawn.
@@ -77,7 +80,7 @@ def parse(words: Sequence[str]) -> Request:
         raise ValueError(f"no command is given; {_alternatives(tuple(COMMANDS))} is accepted.")
     known = _parser(words).parse_args(words)
     read: dict[str, Callable[[argparse.Namespace], dict[str, Any]]]
-    read = {"pendulum": _study_options, "score": submission.options, "solvers": solvers.options}
+    read = {"pendulum": _study_options, "score": submission.options, "solvers": solvers.options, "show": _shown_method}
     return Request(
         command=known.command,
         options=read[known.command](known) if known.command in read else {},
@@ -98,6 +101,11 @@ def _parser(words: Sequence[str] = ("score",)) -> Parser:
             submission.add_options(one, with_families=words[0] == command)
         if command == "solvers":
             solvers.add_options(one)
+        if command == "show":
+            one.add_argument("method", metavar="NAME", help="a method by its name or an alias; see 'list'")
+            one.add_argument(
+                "--format", type=one_of("format", _SHOWN), default="text", metavar="FORM", help=_SHOWN_HELP
+            )
         for option in _ACCEPTED.get(command, ()):
             _add(one, option)
     return parser
@@ -111,6 +119,10 @@ def _add(parser: argparse.ArgumentParser, option: str) -> None:
         parser.add_argument(option, action="store_true", help=text)
     else:
         parser.add_argument(option, action="append" if option in _LISTS else "store", metavar=metavar, help=text)
+
+
+def _shown_method(known: argparse.Namespace) -> dict[str, Any]:
+    return {"method": known.method}
 
 
 def _study_options(known: argparse.Namespace) -> dict[str, Any]:

@@ -14,7 +14,7 @@ from compare.grid import Column, Grid, Section
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
 
-    from compare.method import Method
+    from compare.contract import Method
 
 __all__ = ["FIELDS", "render"]
 
@@ -22,11 +22,16 @@ FIELDS = ("name", "family", "order", "stages", "symplectic", "source")
 
 
 def render(methods: Iterable[Method], form: str = "text") -> str:
-    """The methods in one of the table formats; JSON is a list of objects with FIELDS."""
-    rows = [tuple(getattr(method, field) for field in FIELDS) for method in methods]
+    """The methods in one of the table formats; JSON is an object whose ``methods`` have FIELDS and their aliases."""
+    known = list(methods)
+    rows = [tuple(getattr(method, field) for field in FIELDS) for method in known]
     if form == "json":
-        lines = [json.dumps(dict(zip(FIELDS, row, strict=True)), ensure_ascii=False) for row in rows]
-        return "[\n  " + ",\n  ".join(lines) + "\n]\n"
+        objects = (dict(zip(FIELDS, row, strict=True)) for row in rows)
+        lines = [
+            json.dumps({**fields, "aliases": method.aliases}, ensure_ascii=False)
+            for fields, method in zip(objects, known, strict=True)
+        ]
+        return '{"methods": [\n  ' + ",\n  ".join(lines) + "\n]}\n"
     cells = [tuple(_word(value) for value in row) for row in rows]
     if form == "csv":
         buffer = io.StringIO()

@@ -22,19 +22,25 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
 
     from compare.algebraic import Coefficient
+    from compare.contract import Method
 
-__all__ = ["PROOF_BITS", "order_of", "order_of_partitioned", "order_of_splitting", "order_of_tableau"]
+__all__ = ["PROOF_BITS", "order_of_partitioned", "order_of_splitting", "order_of_tableau", "proven_order"]
 
 PROOF_BITS = 300
 LIMIT = 12
 """No order is looked for beyond it."""
 
 
-def order_of(method: Tableau | Splitting | Partitioned) -> int:
-    """The order that the coefficients of a method have."""
+def proven_order(method: Method) -> int | None:
+    """The order that the coefficients of a method have; None where no algebra of this package decides it."""
+    if isinstance(method, Tableau):
+        return order_of_tableau(method)
     if isinstance(method, Splitting):
         return order_of_splitting(method)
-    return order_of_partitioned(method) if isinstance(method, Partitioned) else order_of_tableau(method)
+    if isinstance(method, Partitioned):
+        return order_of_partitioned(method)
+    own = getattr(method, "proven_order", None)
+    return own() if own is not None else None
 
 
 def order_of_tableau(method: Tableau, b: Sequence[Coefficient] | None = None) -> int:

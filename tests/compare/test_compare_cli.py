@@ -54,6 +54,9 @@ def _run(*words: str, **options) -> subprocess.CompletedProcess:
         (["pendulum", "--length", "0"], "length"),
         (["pendulum", "--t-end", "-1"], "t_end"),
         (["list", "--format", "xml"], "accepted are text, markdown, csv, latex, json"),
+        (["show"], "the following arguments are required: NAME"),
+        (["show", "rk5"], "method 'rk5' is unknown, perhaps rk45 or rkf45 or rk4"),
+        (["show", "rk4", "--format", "csv"], "accepted are text, markdown, latex, json"),
     ],
 )
 def test_a_mistake_is_one_sentence_and_exit_code_2(words, says, capsys):
@@ -136,7 +139,9 @@ def test_list_names_every_method(form, capsys):
     for method in METHODS:
         assert method.name in out
     if form == "json":
-        assert [row["order"] for row in json.loads(out)] == [method.order for method in METHODS]
+        found = json.loads(out)["methods"]
+        assert [row["order"] for row in found] == [method.order for method in METHODS]
+        assert set(found[0]) == {"name", "family", "order", "stages", "source", "symplectic", "aliases"}
 
 
 def test_an_output_path_that_is_a_file_is_refused_and_kept(tmp_path, capsys):

@@ -65,7 +65,7 @@ def test_progress_is_told_each_method_once() -> None:
         ({"g": -9.81}, "g is -9.81; a positive number"),
         ({"length": 0}, "length is 0.0; a positive number"),
         ({"methods": []}, "methods is empty"),
-        ({"methods": ["rk5"]}, "method 'rk5' is unknown, perhaps rk4"),
+        ({"methods": ["rk5"]}, "method 'rk5' is unknown, perhaps rk45"),
         ({"precision": "float16"}, "precision 'float16' is unknown"),
     ],
 )
