@@ -29,6 +29,6 @@ def select(names: Iterable[str]) -> tuple[Solver, ...]:
         found = [s for s in SOLVERS if name in {s.name, s.package, *s.aliases}]
         if not found:
             packages = dict.fromkeys(solver.package for solver in SOLVERS)
-            raise ValueError(unknown("solver", name, packages, [solver.name for solver in SOLVERS]))
+            raise ValueError(unknown("solver", name, packages, [n for s in SOLVERS for n in (s.name, *s.aliases)]))
         chosen |= {solver.name: solver for solver in found}
     return tuple(chosen.values())

@@ -75,6 +75,7 @@ class EventCell:
         matched: how many of those it found.
         spurious: how many it found besides.
         max_error: largest |t - exact| over the matched ones, in s; NaN where there are none.
+        first_only: whether the solver stops at the first event.
         failure: the solver's own message where it failed, or "".
     """
 
@@ -85,6 +86,7 @@ class EventCell:
     matched: int
     spurious: int
     max_error: float
+    first_only: bool
     failure: str
 
 

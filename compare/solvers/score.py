@@ -115,6 +115,7 @@ def score_events(solver: Solver, question: Question, exact: np.ndarray) -> Event
         matched=len(errors),
         spurious=spurious,
         max_error=max(errors, default=math.nan),
+        first_only=solver.first_only,
         failure=found.failure,
     )
 

@@ -33,7 +33,7 @@ COLUMNS = {
         "said",
         "stopped",
     ),
-    "events": ("solver", "rtol", "theta0", "expected", "matched", "spurious", "max_error", "failure"),
+    "events": ("solver", "rtol", "theta0", "expected", "matched", "spurious", "max_error", "first_only", "failure"),
 }
 OTHER = "^"
 NARROWEST = 30
@@ -109,7 +109,7 @@ def _events(events: Sequence[EventCell], at: str, width: int) -> Section:
         return _digits(event.max_error) + few + more
 
     title = f"Events, {at}: largest |t - exact| over the passages through the bottom, in s"
-    first = [event.solver for event in events if event.expected == 1]
+    first = [event.solver for event in events if event.first_only]
     notes = [_EVENTS_NOTE] if any(event.matched < event.expected or event.spurious for event in events) else []
     notes += [f"the first passage only: {', '.join(dict.fromkeys(first))}"] if first else []
     return _table(f"events-{grid.slug(at)}", title, events, entry, width, notes)
@@ -120,7 +120,7 @@ def _said(study: SolverStudy, width: int) -> Iterator[Section]:
     dials = {entry.solver: entry.dial for entry in study.solvers}
     said: dict[tuple[str, str], list[float]] = {}
     for cell in study.error_vs_rtol:
-        own = [f"{dials[cell.solver]} = {cell.used:.1e}"] if _is_other(cell, dials[cell.solver]) else []
+        own = [f"worked with {dials[cell.solver]} = {cell.used:.1e}"] if _is_other(cell, dials[cell.solver]) else []
         for message in (*own, cell.failure, cell.said):
             if message:
                 said.setdefault((cell.solver, message), []).append(cell.rtol)
@@ -129,9 +129,21 @@ def _said(study: SolverStudy, width: int) -> Iterator[Section]:
             said.setdefault((event.solver, f"events: {event.failure}"), []).append(event.rtol)
     if not said:
         return
-    rows = [(who, ", ".join(map(_brief, dict.fromkeys(at))), what) for (who, what), at in said.items()]
+    asked = sorted({cell.rtol for cell in study.error_vs_rtol}, reverse=True)
+    rows = [(who, _runs([asked.index(rtol) for rtol in at], asked), what) for (who, what), at in said.items()]
     columns = Column("solver", left=True), Column("rtol", left=True), Column("what it said", left=True)
     yield Section("said", "What the solvers said", (_folded(columns, rows, width),))
+
+
+def _runs(places: Sequence[int], asked: Sequence[float]) -> str:
+    """Tolerances by their places among those asked for, neighbours as from ... to ..."""
+    runs: list[list[int]] = []
+    for place in sorted(set(places)):
+        if runs and runs[-1][-1] == place - 1:
+            runs[-1].append(place)
+        else:
+            runs.append([place])
+    return ", ".join(" to ".join(_brief(asked[i]) for i in dict.fromkeys((run[0], run[-1]))) for run in runs)
 
 
 def _table(

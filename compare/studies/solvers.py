@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -28,6 +29,7 @@ __all__ = ["DEFAULT_LIMIT", "DEFAULT_RTOL", "questions", "scored", "study"]
 
 DEFAULT_RTOL = tuple(float(f"1e-{k}") for k in range(3, 14))
 DEFAULT_LIMIT = 200_000
+TINY, HUGE = sys.float_info.min, sys.float_info.max
 
 
 def study(
@@ -111,11 +113,11 @@ def questions(problem: Problem, t_end: Any, rtol: Sequence[float], limit: int) -
         TypeError: ``rtol`` is no sequence.
     """
     end = exact(t_end, "t_end")
-    if end <= 0 or float(end) in {0.0, np.inf}:
-        raise ValueError(f"t_end is {as_number(end)}; a positive number is accepted.")
+    if not TINY <= end <= HUGE:
+        raise ValueError(f"t_end is {as_number(end)}; a positive number within the range of doubles is accepted.")
     tolerances = [exact(value, "rtol") for value in some(rtol, "rtol")]
     for tolerance in tolerances:
-        if not 0 < tolerance < 1 or not float(tolerance):
+        if not TINY <= tolerance < 1:
             raise ValueError(f"rtol is {as_number(tolerance)}; a number with 0 < rtol < 1 is accepted.")
     times = np.linspace(0.0, float(end), SAMPLES + 1)
     for tolerance in sorted(set(tolerances), reverse=True):
