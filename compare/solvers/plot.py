@@ -48,7 +48,8 @@ def _figure(study: SolverStudy, name: str, theta0: float) -> Figure:
     title, label, work = FIGURES[name]
     ink = inks(list(dict.fromkeys(cell.solver for cell in study.error_vs_rtol)))
     curves: dict[str, list[SolverCell]] = {}
-    for cell in sorted(study.error_vs_rtol, key=work):
+    looser_first = name != "error-vs-rtol"  # a curve ends at the right, where it is named
+    for cell in sorted(study.error_vs_rtol, key=lambda cell: cell.rtol, reverse=looser_first):
         if cell.theta0 == theta0 and math.isfinite(cell.max_error) and cell.max_error > 0:
             curves.setdefault(cell.solver, []).append(cell)
     figure, axes = wide_figure(f"{title}, θ₀ = {theta0!r} rad", top=0.92)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -22,7 +23,7 @@ def _solves(question: Question) -> bool:
     return 0 < question.positions <= len(AXES) and np.array_equal(Counted(question).velocity(momenta), momenta)
 
 
-def _prepare(question: Question) -> Callable[[], Answer]:
+def _prepare(question: Question, mode: str | None = None) -> Callable[[], Answer]:
     import rebound
 
     axes = AXES[: question.positions]
@@ -34,6 +35,8 @@ def _prepare(question: Question) -> Callable[[], Answer]:
         simulation = rebound.Simulation()
         simulation.integrator = "ias15"
         simulation.integrator.epsilon = question.rtol
+        if mode is not None:
+            simulation.integrator.adaptive_mode = mode
         simulation.gravity = "none"
         simulation.add(m=0.0, **place, **{f"v{axis}": v for axis, v in zip(axes, speed, strict=True)})
 
@@ -61,15 +64,21 @@ def _prepare(question: Question) -> Callable[[], Answer]:
     return run
 
 
-SOLVERS = (
-    Solver(
-        name="rebound.IAS15",
+def _solver(name: str, mode: str | None) -> Solver:
+    chosen = f"; sim.integrator.adaptive_mode = '{mode}'" if mode is not None else ""
+    return Solver(
+        name=name,
         package="rebound",
-        call="sim.integrator = 'ias15'; sim.integrator.epsilon = rtol; for t in times: sim.integrate(t)",
-        prepare=_prepare,
+        call=f"sim.integrator = 'ias15'; sim.integrator.epsilon = rtol{chosen}; for t in times: sim.integrate(t)",
+        prepare=partial(_prepare, mode=mode),
         dial="epsilon",
         counts="evaluations of the force",
         accepts="problems with q' = p in at most three dimensions",
         solves=_solves,
-    ),
-)
+    )
+
+
+SOLVERS = (_solver("rebound.IAS15", None), _solver("rebound.IAS15_global", "global"))
+"""As it comes, its step is chosen by ratios of derivatives of the acceleration (Pham, Rein and Spiegel, Open J.
+Astrophys. 7, 2024), which shrinks it where an acceleration in one dimension passes through zero; "global" is the
+criterion of Rein and Spiegel (Mon. Not. R. Astron. Soc. 446, 2015)."""

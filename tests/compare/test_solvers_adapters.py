@@ -51,6 +51,7 @@ def asked(name, rtol, t_end=4.0, limit=200_000):
         ("desolver.RK45", 1e-6, 1e-6, 1e-8, 128 * 8 * 4),
         ("pyhamsys.Verlet", 1e-4, 4 / 128 / 10, 1e-4, 128 * 10 * 2),
         ("rebound.IAS15", 1e-6, 1e-6, 1e-5, 1 + 128 * 32),
+        ("rebound.IAS15_global", 1e-6, 1e-6, 1e-6, 1 + 128 * 64),
         ("numbalsoda.lsoda", 1e-6, 1e-6, 1e-8, 128 * 8 * 4),
         ("numbalsoda.dop853", 1e-6, 1e-6, 1e-8, 128 * 8 * 4),
     ],
