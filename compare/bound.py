@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
     from compare.algebraic import Coefficient
     from compare.contract import State
-    from compare.precision import Precision
+    from compare.precision import Enclosed, Precision
     from reference.problem import Problem
 
 __all__ = ["BoundSystem", "FormatArithmetic", "plain_system"]
@@ -67,9 +67,10 @@ class BoundSystem:
         self._duals = DualArithmetic(m, self.dimension)
         self._parameters = parameters
         self._fmt = fmt
-        self._numbers: dict[Coefficient, Any] = {}
+        self._numbers: dict[Coefficient | Enclosed, Any] = {}
+        self.tiny = self.number(fmt.tiny)
 
-    def number(self, value: Coefficient) -> Any:
+    def number(self, value: Coefficient | Enclosed) -> Any:
         if value not in self._numbers:
             rounded = self._fmt.number(value)
             self._numbers[value] = hy.expression(rounded) if isinstance(self._m, Heyoka) else rounded

@@ -51,7 +51,7 @@ class _ValueSystem:
 
     def __init__(self, system: System) -> None:
         self._system = system
-        self.number = system.number
+        self.number, self.tiny = system.number, system.tiny
         self.dimension, self.positions, self.level = system.dimension, system.positions, system.level
 
     def derivative(self, y: State) -> State:

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, Protocol
 
 if TYPE_CHECKING:
     from compare.algebraic import Coefficient
+    from compare.precision import Enclosed
 
 __all__ = ["Equation", "Method", "OneStep", "State", "System"]
 
@@ -20,8 +21,8 @@ State = tuple[Any, ...]
 class Equation(Protocol):
     """y' = f(y) in one arithmetic."""
 
-    def number(self, value: Coefficient) -> Any:
-        """An exact coefficient as a number of the arithmetic."""
+    def number(self, value: Coefficient | Enclosed) -> Any:
+        """An exact coefficient, or one known by its enclosures, as a number of the arithmetic."""
 
     def derivative(self, y: State) -> State:
         """f(y)."""
@@ -39,6 +40,8 @@ class System(Equation, Protocol):
     """How many of the components are positions, 0 where the equation is not separable."""
     level: Any
     """The invariant at the start of the march, which a conservative method keeps."""
+    tiny: Any
+    """A number that is nothing beside any other but zero."""
 
     def velocity(self, momenta: State) -> State:
         """The rates of the positions, which depend on the momenta alone."""

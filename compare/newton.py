@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
     from compare.contract import Equation, State
 
-__all__ = ["Elimination", "Matrix", "evaluations", "iterations", "jacobians", "slopes"]
+__all__ = ["Elimination", "Matrix", "evaluations", "iterations", "jacobians", "newton_matrix", "slopes"]
 
 Matrix: TypeAlias = tuple[tuple[Coefficient, ...], ...]
 
@@ -77,7 +77,9 @@ def slopes(
         stages = [_stage(system, y, h, [matrix[i] for matrix in matrices], found) for i in implicit]
         right = [_minus(system.derivative(stage), found[i]) for stage, i in zip(stages, implicit, strict=True)]
         if iteration < iterations - 1:
-            system_of_slopes = _rows(system, h, matrices, implicit, [system.jacobian(stage) for stage in stages])
+            system_of_slopes = newton_matrix(
+                system, h, matrices, implicit, [system.jacobian(stage) for stage in stages]
+            )
             elimination = Elimination(system_of_slopes)
         moves = elimination.solve([residual[c] for c in range(len(y)) for residual in right])
         for place, i in enumerate(implicit):
@@ -102,7 +104,7 @@ def _stage(system: Equation, y: State, h: Any, rows: Sequence[Sequence[Coefficie
     return tuple(moved)
 
 
-def _rows(
+def newton_matrix(
     system: Equation, h: Any, matrices: Sequence[Matrix], implicit: Sequence[int], jacobians: Sequence[Sequence[State]]
 ) -> list[list[Any]]:
     """I - h a J, component by component and stage by stage within: in a separable system it begins with the identity.

@@ -114,6 +114,11 @@ class Precision:
         return math.ldexp(1.0, 1 - self.bits)
 
     @property
+    def tiny(self) -> Fraction:
+        """A number near the least that is normal."""
+        return Fraction(1, 1 << (126 if self.type is np.float32 else 1022))
+
+    @property
     def compiler_options(self) -> dict[str, Any]:
         """What heyoka's compiler needs to know; calls of MPFR gain nothing from optimization, which takes long."""
         return {"fp_type": self.type, **({"prec": self.bits, "opt_level": 0} if self.type is hy.real else {})}

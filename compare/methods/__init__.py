@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from compare.methods.compositions import COMPOSITIONS
+from compare.methods.conservative import CONSERVATIVE
 from compare.methods.embedded import EMBEDDED
 from compare.methods.explicit import EULER, EXPLICIT, HEUN, MIDPOINT, RK4
 from compare.methods.implicit import IMPLICIT, IMPLICIT_MIDPOINT
@@ -34,6 +35,7 @@ METHODS: tuple[Method, ...] = (
     *COMPOSITIONS,
     *NYSTROM,
     *IMPLICIT,
+    *CONSERVATIVE,
     *MULTISTEP,
 )
 
