@@ -6,12 +6,14 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from compare.judge.checking import check
     from compare.scoring import energy_drift, error_vs_n
     from compare.submission.scored import score
 
-__all__ = ["energy_drift", "error_vs_n", "score"]
+__all__ = ["check", "energy_drift", "error_vs_n", "score"]
 
 _HOMES = {
+    "check": "compare.judge.checking",
     "energy_drift": "compare.scoring",
     "error_vs_n": "compare.scoring",
     "score": "compare.submission.scored",

@@ -2,7 +2,8 @@
 
 The tables go to stdout, whatever the other options are, so that they can be piped.
 `--out DIR` writes the same tables into a folder as well, `--plots` the figures; what was written is said on stderr.
-Exit codes: 0, 2 for a mistake of the user's or a disk that cannot be written, 130 when interrupted.
+Exit codes: 0, 1 where a claim fails, 2 for a mistake of the user's or a disk that cannot be written, 130 when
+interrupted.
 """
 
 from __future__ import annotations
@@ -37,6 +38,8 @@ def main(words: Sequence[str] | None = None) -> int:
 
 def _command(words: Sequence[str] | None = None) -> int:
     request = parse(sys.argv[1:] if words is None else words)
+    if request.command == "check":
+        return _check(request)
     if request.command == "score":
         _score(request)
         return 0
@@ -77,6 +80,18 @@ def _shown(request: Request, run_study: Callable[..., Any], home: str) -> str:
     if results is not None and not request.quiet:
         print(f"wrote {', '.join(results.names)} into {results.target}", file=sys.stderr)
     return rendering.render(study, tables, request.form, width)
+
+
+def _check(request: Request) -> int:
+    """Check an integrator; what its module prints goes to stderr, so that stdout has the answer alone."""
+    from compare.judge import show
+    from compare.judge.checking import check
+    from compare.judge.loading import loaded
+
+    with contextlib.redirect_stdout(sys.stderr):
+        found = check(**{**request.options, "step": loaded(request.options["step"])})
+    _print({"text": show.text, "json": show.json_text}[request.form](found))
+    return 0 if found.claims_hold else 1
 
 
 def _score(request: Request) -> None:

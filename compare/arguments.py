@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from compare import reading
+from compare.judge import options as judge
 from compare.solvers import options as solvers
 from compare.submission import options as submission
 from compare.table import FORMATS
@@ -23,6 +24,7 @@ COMMANDS = {
     "show": "show a method: its tableau or its flows, its proven order, its properties",
     "solvers": "score other people's solvers: error against tolerance, evaluations and seconds, events",
     "score": "judge a file of numbers from any code against the proven truth",
+    "check": "measure whether your integrator is what it claims to be",
 }
 
 _OPTIONS: dict[str, tuple[str | None, str]] = {
@@ -55,7 +57,8 @@ class Request:
 
     Attributes:
         command: one of COMMANDS.
-        options: arguments of the study, only those that were given; the fields of a submission; or the method shown.
+        options: arguments of the study, only those that were given; the fields of a submission; the method
+            shown; or the arguments of a check.
         form: one of the table formats.
         out: a folder for the results, or None.
         plots: whether figures are drawn.
@@ -81,6 +84,7 @@ def parse(words: Sequence[str]) -> Request:
     known = _parser(words).parse_args(words)
     read: dict[str, Callable[[argparse.Namespace], dict[str, Any]]]
     read = {"pendulum": _study_options, "score": submission.options, "solvers": solvers.options, "show": _shown_method}
+    read["check"] = judge.options
     return Request(
         command=known.command,
         options=read[known.command](known) if known.command in read else {},
@@ -101,6 +105,8 @@ def _parser(words: Sequence[str] = ("score",)) -> Parser:
             submission.add_options(one, with_families=words[0] == command)
         if command == "solvers":
             solvers.add_options(one)
+        if command == "check":
+            judge.add_options(one)
         if command == "show":
             one.add_argument("method", metavar="NAME", help="a method by its name or an alias; see 'list'")
             one.add_argument(

@@ -1,0 +1,73 @@
+"""A time after which whatever runs is stopped: a user's function may never return."""
+
+from __future__ import annotations
+
+import ctypes
+import signal
+import threading
+from contextlib import contextmanager
+from typing import TYPE_CHECKING, Any, NoReturn
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+__all__ = ["TimeOut", "deadline"]
+
+
+class TimeOut(BaseException):
+    """The time is up: no ``except Exception`` of the user's keeps it."""
+
+
+@contextmanager
+def deadline(seconds: float) -> Iterator[None]:
+    """Raise TimeOut in this thread after so many seconds: between two steps of Python, not within compiled code."""
+    in_main = threading.current_thread() is threading.main_thread()
+    if (
+        in_main
+        and hasattr(signal, "setitimer")
+        and signal.getsignal(signal.SIGALRM) in {signal.SIG_DFL, signal.SIG_IGN}
+    ):
+        with _alarm(seconds):
+            yield
+    else:
+        with _watch(seconds):
+            yield
+
+
+@contextmanager
+def _alarm(seconds: float) -> Iterator[None]:
+    """By the timer of the process, which ends waiting too."""
+
+    def ring(_number: int, _frame: Any) -> NoReturn:
+        raise TimeOut
+
+    before = signal.signal(signal.SIGALRM, ring)
+    signal.setitimer(signal.ITIMER_REAL, seconds)
+    try:
+        yield
+    finally:
+        signal.setitimer(signal.ITIMER_REAL, 0)
+        signal.signal(signal.SIGALRM, before)
+
+
+@contextmanager
+def _watch(seconds: float) -> Iterator[None]:
+    """By a thread that raises in this one."""
+    done = threading.Event()
+    here = ctypes.c_ulong(threading.get_ident())
+    lock = threading.Lock()
+
+    def wait() -> None:
+        if not done.wait(seconds):
+            with lock:
+                if not done.is_set():
+                    ctypes.pythonapi.PyThreadState_SetAsyncExc(here, ctypes.py_object(TimeOut))
+
+    watcher = threading.Thread(target=wait, daemon=True)
+    watcher.start()
+    try:
+        yield
+    finally:
+        with lock:
+            done.set()
+        watcher.join()

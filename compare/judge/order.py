@@ -1,0 +1,201 @@
+"""The order that an integrator shows: the slope of its error against the step, where that is a slope."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from itertools import pairwise
+from statistics import median
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from compare.scores import slope_with_interval
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from compare.judge.courses import Marcher
+
+__all__ = ["Cell", "Order", "ladder", "measured"]
+
+SAMPLES = 4
+"""Times of comparison, the same for every number of steps."""
+FLOOR_FACTOR = 30
+"""An error within so many times the rounding noise is rounding."""
+FLAT = 0.5
+"""A slope below this is no order."""
+SMALL = 1e-3
+"""Relative error below which errors that stop falling have met a tolerance, not a mistake."""
+TOLERANCES = (0.02, 0.05, 0.1)
+"""How far slopes of one range may lie from their middle: the first of these that gives enough of them."""
+ENOUGH = 4
+RESOLUTION = 0.01
+FIRST_COUNTS = 5
+
+
+@dataclass(frozen=True)
+class Cell:
+    """One number of steps: the largest error over the samples, relative to the size of each component.
+
+    Attributes:
+        noise: by how much two marches from starts close by differ in their errors: rounding, or an inner tolerance.
+        slope: of the error from the number of steps before, or None.
+        used: whether it is in the fit.
+    """
+
+    n: int
+    h: float
+    error: float
+    noise: float
+    slope: float | None = None
+    used: bool = False
+
+
+@dataclass(frozen=True)
+class Order:
+    """What the errors show.
+
+    Attributes:
+        value: the fitted slope, 0 where the errors do not fall, or None where there is none to see.
+        half_width: of its interval.
+        kind: "slope"; "floor" where every error is rounding; "flat" where errors do not fall; "few" where there are too
+            few; "own steps" where they are small and do not depend on the times that were asked for.
+        plateau: the relative error at which a slope ends in a tolerance, or None.
+    """
+
+    cells: tuple[Cell, ...]
+    value: float | None
+    half_width: float
+    kind: str
+    plateau: float | None = None
+
+    @property
+    def interval(self) -> tuple[float, float] | None:
+        """The ends of the interval."""
+        return None if self.value is None else (self.value - self.half_width, self.value + self.half_width)
+
+
+def ladder(most: int) -> tuple[int, ...]:
+    """8, 12, 16, 24, 32, ... up to ``most``: multiples of the samples."""
+    halves = (SAMPLES * base << k for k in range(1, 20) for base in (2, 3))
+    return tuple(sorted({n // 2 for n in halves if n // 2 <= most}))
+
+
+def measured(marcher: Marcher, t_end: float, counts: Sequence[int]) -> Order:
+    """The order on one scene from its start to ``t_end`` in these numbers of steps.
+
+    A whole integrator whose errors are small and do not fall at first is not asked for more: it chooses its own steps.
+    """
+    if not marcher.whole:
+        return _measured(marcher, t_end, counts)
+    first = _measured(marcher, t_end, counts[:FIRST_COUNTS])
+    if first.kind == "flat" and first.cells[-1].error <= SMALL:
+        return replace(first, value=None, kind="own steps")
+    return _measured(marcher, t_end, counts)
+
+
+def _measured(marcher: Marcher, t_end: float, counts: Sequence[int]) -> Order:
+    here, there = _errors(marcher, t_end, counts)
+    cells: list[Cell] = []
+    for n, error, other in zip(counts, here, there, strict=True):
+        size, noise = (float(np.max(np.abs(value))) for value in (error, error - other))
+        slope = None
+        if cells and 0 < size < math.inf and 0 < cells[-1].error < math.inf:
+            slope = math.log(cells[-1].error / size) / math.log(n / cells[-1].n)
+        cells.append(Cell(n, t_end / n, size, noise, slope))
+    return fitted(cells)
+
+
+def _errors(marcher: Marcher, t_end: float, counts: Sequence[int]) -> tuple[list[np.ndarray], list[np.ndarray]]:
+    """Relative errors [samples, state] for each number of steps, from the start and from one close by."""
+    scenes = marcher.scene, marcher.scene.neighbour()
+    h = np.array([t_end / n for n in counts])
+    wanted = [[n * (j + 1) // SAMPLES for j in range(SAMPLES)] for n in counts]
+    starts = np.stack([scene.start for scene in scenes for _ in counts], axis=1)
+    found = marcher.states(starts, np.concatenate([h, h]), [*wanted, *wanted])
+    errors = []
+    for i, states in enumerate(found):
+        steps, size = wanted[i % len(counts)], Fraction(float(h[i % len(counts)]))
+        error = scenes[i // len(counts)].errors([step * size for step in steps], states)
+        errors.append(error / np.max(np.abs(states - error), axis=0))
+    return errors[: len(counts)], errors[len(counts) :]
+
+
+def fitted(cells: Sequence[Cell]) -> Order:
+    """The slope where there is one: rounding and what lies beyond it, and a plateau at the fine end, are left out."""
+    usable = _above_the_floor(cells)
+    if len(usable) < 2:
+        kind = "floor" if cells[0].error <= SMALL else "flat"
+        return Order(tuple(cells), None if kind == "floor" else 0.0, 0.0, kind)
+    slopes = [_slope(a, b) for a, b in pairwise(usable)]
+    steep = len(slopes)
+    while steep and slopes[steep - 1] < FLAT:
+        steep -= 1
+    plateau = usable[-1].error if steep < len(slopes) else None
+    if plateau is not None and (plateau > SMALL or steep < 2):
+        return _flat(cells, usable, slopes)
+    first, last = _range(slopes[:steep], by_the_end=plateau is None)
+    return _line(cells, usable[first:last], slopes[first : last - 1], plateau)
+
+
+def _above_the_floor(cells: Sequence[Cell]) -> list[Cell]:
+    """The cells before the first that is rounding, of finite error below the size of the motion."""
+    found: list[Cell] = []
+    for cell in cells:
+        if cell.error <= FLOOR_FACTOR * cell.noise and cell.error < SMALL:
+            break
+        if 0 < cell.error < 1:
+            found.append(cell)
+    return found
+
+
+def _slope(a: Cell, b: Cell) -> float:
+    return math.log(a.error / b.error) / math.log(b.n / a.n)
+
+
+def _flat(cells: Sequence[Cell], usable: Sequence[Cell], slopes: Sequence[float]) -> Order:
+    """Errors that do not fall: the slope over the fine half, never below zero."""
+    fine = slopes[len(slopes) // 2 :]
+    return Order(
+        tuple(cells), max(0.0, median(fine)), max(abs(s - median(fine)) for s in fine), "flat", usable[-1].error
+    )
+
+
+def _range(slopes: Sequence[float], *, by_the_end: bool) -> tuple[int, int]:
+    """The cells [first, last) of the longest run of slopes that agree, the finer of two.
+
+    Where the errors go on falling to the end, they must agree with the finest slopes: a term of low order shows there.
+    Where they end in a plateau, the last slopes are bent, and the longest run speaks for itself.
+    """
+    targets = [median(slopes[-3:])] if by_the_end else list(slopes)
+    best = 0, 0
+    for tolerance in TOLERANCES:
+        for target in targets:
+            first = 0
+            for i, slope in enumerate(slopes):
+                if abs(slope - target) > tolerance:
+                    first = i + 1
+                elif i + 2 - first >= best[1] - best[0]:
+                    best = first, i + 2
+        if best[1] - best[0] >= ENOUGH:
+            break
+    return best
+
+
+def _line(cells: Sequence[Cell], chosen: Sequence[Cell], slopes: Sequence[float], plateau: float | None) -> Order:
+    """One slope through the chosen cells; its interval is twice as wide as the local slopes, which may go on drifting."""
+    if len(chosen) < 2:
+        return Order(tuple(cells), None, 0.0, "few", plateau)
+    x, y = (
+        np.array([math.log(value) for value in values])
+        for values in zip(*((c.n, 1 / c.error) for c in chosen), strict=True)
+    )
+    if len(chosen) == 2:
+        value, half = slopes[0], 0.5
+    else:
+        value, half = slope_with_interval(x, y)
+    half = max(half, RESOLUTION, *(2 * abs(slope - value) for slope in slopes))
+    marked = tuple(replace(cell, used=cell in chosen) for cell in cells)
+    return Order(marked, value, half, "slope", plateau)
