@@ -23,7 +23,7 @@ __all__ = ["Linear", "Zero", "ZeroError"]
 
 ISOLATION_BITS, STILL_BITS, BOX_BITS = 256, 192, 128
 NEWTON_STEPS = 40
-GUARD_BITS = 40
+GUARD_BITS = 80
 
 
 class ZeroError(ArithmeticError):
@@ -34,7 +34,7 @@ class Zero:
     """The zero of a system of equations that Newton's method finds from printed decimals, proven to exist.
 
     Args:
-        name: what the equations are of, for messages.
+        name: what the equations are of; zeros of one name and the same printed decimals are one.
         equations: unknowns, in any arithmetic that mixes with integers, to as many values, which vanish at the zero.
         printed: the unknowns as printed.
         slack: how far the zero may be from what is printed, in units of the last printed place.
@@ -54,7 +54,7 @@ class Zero:
         return Zero, (self.name, self.equations, self.printed, self.slack)
 
     def __eq__(self, other: object) -> bool:
-        return isinstance(other, Zero) and self.__reduce__()[1] == other.__reduce__()[1]
+        return isinstance(other, Zero) and (self.name, self.printed) == (other.name, other.printed)
 
     def __hash__(self) -> int:
         return hash((self.name, self.printed))
