@@ -7,7 +7,9 @@ and gives every state.
 
 from __future__ import annotations
 
+import copy
 import math
+import time
 from collections import defaultdict
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
@@ -18,7 +20,7 @@ from compare.trace import compile_block, entry_rows, plain_block
 from reference.arithmetic import BALL
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Iterator, Sequence
     from fractions import Fraction
 
     from flint import arb
@@ -28,7 +30,7 @@ if TYPE_CHECKING:
     from compare.trace import Block, Record
     from reference.problem import Problem
 
-__all__ = ["Lane", "March", "StartInvariant", "iterations_for", "march", "sample_steps"]
+__all__ = ["Lane", "March", "StartInvariant", "iterations_for", "march", "march_alone", "sample_steps"]
 
 LONG_BLOCKS, SHORT_BLOCK = (64, 32, 16), 8
 LONG_MARCH = 8192
@@ -38,6 +40,8 @@ JACOBIAN_SIZE, JACOBIAN_BATCH = 3, 16
 """A Jacobian and what is solved with it is code for so many evaluations, and fills the registers of so many lanes."""
 INLINE_SINE = 10**9
 """Evaluations from which the sine is compiled into the march: the seconds that it takes are then won back."""
+CLOCKED_RUNS, BRIEF = 3, 0.02
+"""A march alone of less than BRIEF seconds is clocked this often."""
 CONVERGED = 1000
 """A last iteration may change the state by this many roundings."""
 
@@ -122,6 +126,32 @@ def march(method: Method, lanes: Sequence[Lane], fmt: Precision) -> list[March]:
         TraceError: the compiled step is not the plain one.
     """
     results: dict[int, March] = {}
+    for members, group in _groups(method, lanes, fmt):
+        results.update(zip(members, group.run(), strict=True))
+    return [results[i] for i in range(len(lanes))]
+
+
+def march_alone(method: Method, lanes: Sequence[Lane], fmt: Precision) -> list[tuple[March, float]]:
+    """March every lane by itself, and return what each gave with the seconds of its loop over the steps.
+
+    What the lanes share is compiled once, before; of a short march the shortest of a few counts.  Raises as ``march``.
+    """
+    results: dict[int, tuple[March, float]] = {}
+    for members, group in _groups(method, lanes, fmt):
+        for i in members:
+            alone = group.alone(lanes[i])
+            seconds = math.inf
+            for _ in range(CLOCKED_RUNS):
+                (result,) = alone.run()
+                seconds = min(seconds, alone.seconds)
+                if alone.seconds > BRIEF:
+                    break
+            results[i] = result, seconds
+    return [results[i] for i in range(len(lanes))]
+
+
+def _groups(method: Method, lanes: Sequence[Lane], fmt: Precision) -> Iterator[tuple[list[int], _Group]]:
+    """The lanes, by their places, that share a compiled block, in order of falling N; each with its group."""
     groups: dict[tuple[int, int], list[int]] = defaultdict(list)
     for i, lane in enumerate(lanes):
         if method.separable_only and not getattr(lane.problem, "positions", 0):
@@ -131,9 +161,7 @@ def march(method: Method, lanes: Sequence[Lane], fmt: Precision) -> list[March]:
         groups[grain if all(step % grain == 0 for step in lane.samples) else 1, iterations].append(i)
     for (grain, iterations), members in groups.items():
         members.sort(key=lambda i: -lanes[i].n)
-        group = _Group(method, [lanes[i] for i in members], fmt, grain, iterations)
-        results.update(zip(members, group.run(), strict=True))
-    return [results[i] for i in range(len(lanes))]
+        yield members, _Group(method, [lanes[i] for i in members], fmt, grain, iterations)
 
 
 class _Group:
@@ -158,15 +186,24 @@ class _Group:
         )
         self.states = [fmt.zeros((len(lane.samples), self.dimension)) for lane in lanes]
         self.maxima = np.zeros((len(lanes), 2))
+        self.seconds = math.nan
+
+    def alone(self, lane: Lane) -> _Group:
+        """A group of one of the lanes that shares the compiled block."""
+        one = copy.copy(self)
+        one.lanes, one.ends = [lane], np.array([lane.n])
+        one.states, one.maxima = [self.fmt.zeros((len(lane.samples), self.dimension))], np.zeros((1, 2))
+        return one
 
     def run(self) -> list[March]:
-        """March to the end of every lane."""
+        """March to the end of every lane, and note the seconds that the loop took."""
         lanes, parameters = self._start()
         rows = len(lanes)
         spare = self.fmt.zeros((self.block.out_rows(rows), lanes.shape[1]))
         out = self.fmt.zeros(spare.shape)
         events = self._events()
         taken = 0
+        began = time.perf_counter()
         while lanes.shape[1]:
             if taken == 0 and self.method.opening:
                 out[:] = self._opening(lanes, parameters)
@@ -180,6 +217,7 @@ class _Group:
                 if width < lanes.shape[1]:
                     shrunk = (np.ascontiguousarray(array[:, :width]) for array in (lanes, parameters, out, spare))
                     lanes, parameters, out, spare = shrunk
+        self.seconds = time.perf_counter() - began
         return [self._result(i) for i in range(len(self.lanes))]
 
     def _start(self) -> tuple[np.ndarray, np.ndarray]:

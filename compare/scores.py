@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from compare.precision import Precision
     from reference.problem import Problem
 
-__all__ = ["SAMPLES", "Course", "fit_order", "relative_drift", "score_method"]
+__all__ = ["SAMPLES", "Course", "fit_order", "relative_drift", "score_errors", "score_method"]
 
 SAMPLES = 128
 FLOOR_FACTOR = 10
@@ -122,7 +122,18 @@ def score_method(method: Method, courses: Sequence[Course], fmt: Precision) -> t
         return _scores(method, courses, fmt)
 
 
+def score_errors(method: Method, courses: Sequence[Course], fmt: Precision) -> list[Cell]:
+    """The Cells of ``score_method``, for problems without an energy or a period too."""
+    with np.errstate(over="ignore", invalid="ignore"):
+        return _cells(method, courses, fmt)[0]
+
+
 def _scores(method: Method, courses: Sequence[Course], fmt: Precision) -> tuple[list[Cell], list[Drift]]:
+    cells, found = _cells(method, courses, fmt)
+    return cells, [_drift(method, course, result) for course, result in zip(courses, found, strict=True)]
+
+
+def _cells(method: Method, courses: Sequence[Course], fmt: Precision) -> tuple[list[Cell], list[March]]:
     marches = march(method, [lane for course in courses for lane in (course.lane, course.neighbour.lane)], fmt)
     found, neighbours = marches[::2], marches[1::2]
     cells: list[Cell] = []
@@ -132,8 +143,7 @@ def _scores(method: Method, courses: Sequence[Course], fmt: Precision) -> tuple[
         noise = float(np.max(np.abs(course.errors(result) - course.neighbour.errors(other))[:, 0]))
         cells.append(_cell(method, course, result, noise, previous))
         before = course
-    drifts = [_drift(method, course, result) for course, result in zip(courses, found, strict=True)]
-    return cells, drifts
+    return cells, found
 
 
 def _amplitude(problem: Problem) -> float:
