@@ -35,6 +35,8 @@ BINARY64_BITS = 53
 BINARY64_MIN_EXPONENT = -1074
 HALVES = 2.0**BINARY64_BITS
 """Halves of the last bit in a power of two."""
+DECIMAL_EXPONENT = 1 << 20
+"""Numbers beyond 2^this, about 10^315653, or below its reciprocal have no decimals: they would take minutes."""
 MAX_BITS = 1 << 17
 """Working precision at which a proof is given up, with an error."""
 
@@ -71,6 +73,8 @@ def rounded(mantissa: int, exponent: int, bits: int, min_exponent: int | None = 
         drop = max(drop, min_exponent - exponent)
     if drop <= 0:
         return mantissa, exponent
+    if drop > mantissa.bit_length():
+        return 0, exponent + drop
     floor, rest = mantissa >> drop, mantissa & ((1 << drop) - 1)
     half = 1 << (drop - 1)
     if rest > half or (rest == half and floor & 1):
@@ -167,10 +171,18 @@ def decimal(bounds: Interval | None, digits: int) -> str | None:
 
 
 def _shared(bounds: Interval | None, spell: Callable[[Fraction], str]) -> str | None:
-    """The text of both ends of the interval, and so of every point between them; None where they differ."""
+    """The text of both ends of the interval, and so of every point between them; None where they differ.
+
+    Raises:
+        OverflowError: every point of the interval is beyond 2^DECIMAL_EXPONENT or below its reciprocal.
+    """
     if bounds is None:
         return None
     low, high, exponent = bounds
+    if abs(exponent) > DECIMAL_EXPONENT:
+        if low.bit_length() == high.bit_length() and low * high > 0:
+            raise OverflowError(f"the value is about 2^{exponent + low.bit_length()}, too far from 1 for decimals.")
+        return None
     scale = Fraction(2) ** exponent
     text = spell(low * scale)
     return text if spell(high * scale) == text else None

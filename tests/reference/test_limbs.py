@@ -47,6 +47,19 @@ def test_underflow_is_gradual(mantissa, exponent):
     assert limbs((mantissa, mantissa, exponent), 1) == (nearest_double(x),)
 
 
+@pytest.mark.parametrize("exponent", [-(10**6), -(10**15)])
+def test_what_is_far_below_the_range_is_zero_at_once(exponent):
+    for mantissa in (1, -1, 2**200 + 1):
+        assert limbs((mantissa, mantissa, exponent), 2) == (0.0, 0.0)
+
+
+@pytest.mark.parametrize("exponent", [-(10**12), 10**12])
+def test_what_is_too_far_from_one_for_decimals_is_refused_at_once(exponent):
+    with pytest.raises(OverflowError, match=rf"^the value is about 2\^{exponent + 2}, too far from 1 for decimals\.$"):
+        decimal((3, 3, exponent), 5)
+    assert decimal((-1, 3, exponent), 5) is None
+
+
 def test_the_smallest_subnormal_and_half_of_it():
     assert limbs((1, 1, -1074), 2) == (5e-324, 0.0)
     assert limbs((1, 1, -1075), 1) == (0.0,)
