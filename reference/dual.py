@@ -177,8 +177,8 @@ def with_slope(m: Any, function: Callable[[Any, Any], Any], x: Any) -> tuple[Any
 class DualElliptic:
     """Jacobi's functions of duals, by their derivatives with respect to u and to the modulus (DLMF 22.13, 19.4).
 
-    With X = E(am u) - kc^2 u - k^2 sn cn/dn: dsn/dk = -cn dn X/(k kc^2), dcn/dk = sn dn X/(k kc^2),
-    ddn/dk = k sn (cn X/kc^2 - sn/dn).
+    With e = E(am u) and X = e - kc^2 u - k^2 sn cn/dn: dsn/dk = -cn dn X/(k kc^2), dcn/dk = sn dn X/(k kc^2),
+    ddn/dk = k sn (cn X/kc^2 - sn/dn), de/dk = (e - u)/k - dn^2 X/(k kc^2); de/du = dn^2.
     """
 
     def __init__(self, base: Any, k: Dual, kc: Dual) -> None:
@@ -192,19 +192,36 @@ class DualElliptic:
         rate = (self._base.second() - self._kc**2 * self._base.first) / self._kkc
         return self._k.along(self._base.first, lambda slope: rate * slope)
 
+    def second(self) -> Dual:
+        """E, with dE/dk = (E - K)/k."""
+        second = self._base.second()
+        rate = (second - self._base.first) / self._k.value
+        return self._k.along(second, lambda slope: rate * slope)
+
     def functions(self, u: Dual) -> tuple[Dual, Dual, Dual]:
         k = self._k.value
-        sn, cn, dn = self._base.functions(u.value)
-        x = self._base.epsilon(u.value) - self._kc**2 * u.value - k * k * sn * cn / dn
-
-        def moved(value: Any, by_u: Any, by_k: Any) -> Dual:
-            return u.joined(self._k, value, lambda du, dk: by_u * du + by_k * dk)
-
+        sn, cn, dn, _, x = self._at(u.value)
         return (
-            moved(sn, cn * dn, -cn * dn * x / self._kkc),
-            moved(cn, -sn * dn, sn * dn * x / self._kkc),
-            moved(dn, -k * k * sn * cn, k * sn * (cn * x / self._kc**2 - sn / dn)),
+            self._moved(u, sn, cn * dn, -cn * dn * x / self._kkc),
+            self._moved(u, cn, -sn * dn, sn * dn * x / self._kkc),
+            self._moved(u, dn, -k * k * sn * cn, k * sn * (cn * x / self._kc**2 - sn / dn)),
         )
+
+    def epsilon(self, u: Dual) -> Dual:
+        """E(am u)."""
+        _, _, dn, epsilon, x = self._at(u.value)
+        by_k = (epsilon - u.value) / self._k.value - dn * dn * x / self._kkc
+        return self._moved(u, epsilon, dn * dn, by_k)
+
+    def _at(self, u: Any) -> tuple[Any, Any, Any, Any, Any]:
+        """sn, cn, dn, e and X."""
+        k = self._k.value
+        sn, cn, dn = self._base.functions(u)
+        epsilon = self._base.epsilon(u)
+        return sn, cn, dn, epsilon, epsilon - self._kc**2 * u - k * k * sn * cn / dn
+
+    def _moved(self, u: Dual, value: Any, by_u: Any, by_k: Any) -> Dual:
+        return u.joined(self._k, value, lambda du, dk: by_u * du + by_k * dk)
 
     def incomplete(self, phi: Dual) -> Dual:
         """F(phi): only its value is asked for, to count whole turns."""

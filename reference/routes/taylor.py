@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from copy import copy
 from fractions import Fraction
 from functools import cached_property, lru_cache
@@ -9,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from reference.arithmetic import Heyoka
+from reference.arithmetic import MPMATH, Heyoka
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -44,20 +45,25 @@ class Flow:
     def _variables(self) -> list[Any]:
         return list(self._hy.make_vars(*self._problem.state_names))
 
-    def _integrator(self, variational: tuple[str, ...] = (), **events: Any) -> Any:
+    def _integrator(self, variational: tuple[str, ...] = (), order: int = 1, **events: Any) -> Any:
         """An integrator at the start; one without events is a copy of what was compiled once for the equation."""
         problem = self._problem
         names = tuple(problem.state_names), tuple(problem.parameters)
         compiled = _compiled.__wrapped__ if events else _compiled
-        integrator = copy(compiled(problem.derivative, *names, self._bits, variational, **events))
+        integrator = copy(compiled(problem.derivative, *names, self._bits, variational, order, **events))
         integrator.state[: len(problem.start)] = [self._real(value) for value in problem.start]
         integrator.pars[:] = [self._real(value) for value in problem.parameters.values()]
         return integrator
 
-    def at(self, times: Sequence[Fraction], variational: Sequence[str] = ()) -> list[tuple[Fraction, ...]]:
-        """The state at each time (none negative), and after it its derivatives by the named starts and parameters."""
+    def at(
+        self, times: Sequence[Fraction], variational: Sequence[str] = (), order: int = 1
+    ) -> list[tuple[Fraction, ...]]:
+        """The state at each time (none negative), and after it its derivatives by the named starts and parameters.
+
+        They come order by order up to ``order``, and in each order those of the first state first.
+        """
         moments = sorted({Fraction(0), *times})
-        integrator = self._integrator(tuple(variational))
+        integrator = self._integrator(tuple(variational), order)
         grid = np.array([self._real(moment) for moment in moments])
         outcome, *_, states = integrator.propagate_grid(grid)
         if outcome != self._hy.taylor_outcome.time_limit:
@@ -67,14 +73,22 @@ class Flow:
         }
         return [found[time] for time in times]
 
-    def zeros(self, event: Callable[[Heyoka, Sequence[Any]], Any], until: float) -> list[Fraction]:
-        """The times in (0, until] at which a function of the state, event(m, y), crosses zero."""
+    def zeros(self, event: Callable[[Any, Sequence[Any]], Any], until: float) -> list[Fraction]:
+        """The times in (0, until] at which a function of the state, event(m, y), crosses zero.
+
+        heyoka overlooks the next zero where the start is one; the integration with the event begins just after it.
+        """
         crossings: list[Fraction] = []
         crossing = self._hy.nt_event_real(
             event(Heyoka(self._real), self._variables), lambda _ta, time, _sign: crossings.append(to_fraction(time))
         )
-        self._integrator(nt_events=[crossing]).propagate_until(self._real(Fraction(until)))
-        return [time for time in crossings if time > Fraction(until) / 10**9]
+        integrator = self._integrator(nt_events=[crossing])
+        if event(MPMATH, [MPMATH.number(value) for value in self._problem.start]) == 0:
+            early = Fraction(until) / 2 ** (self._bits // 4)
+            (state,) = self.at([early])
+            integrator.state[:], integrator.time = [self._real(value) for value in state], self._real(early)
+        integrator.propagate_until(self._real(Fraction(until)))
+        return crossings
 
 
 @lru_cache(maxsize=COMPILED)
@@ -84,6 +98,7 @@ def _compiled(
     parameter_names: tuple[str, ...],
     bits: int,
     variational: tuple[str, ...],
+    order: int,
     **events: Any,
 ) -> Any:
     """The integrator of an equation, its state and its parameters still to be set."""
@@ -98,7 +113,7 @@ def _compiled(
     system: Any = list(zip(variables, rates, strict=True))
     if variational:
         named = {**dict(zip(state_names, variables, strict=True)), **symbols}
-        system = hy.var_ode_sys(system, [named[name] for name in variational], 1)
+        system = hy.var_ode_sys(system, [named[name] for name in variational], order)
     zero = _real(Fraction(0), bits)
     with not_kept():
         return hy.taylor_adaptive(
@@ -106,11 +121,23 @@ def _compiled(
             [zero] * len(variables),
             fp_type=hy.real,
             prec=bits,
-            tol=_real(Fraction(1, 2**bits), bits),
+            tol=_tolerance(bits),
             pars=[zero] * len(symbols),
             compact_mode=True,
             **events,
         )
+
+
+def _tolerance(bits: int) -> Any:
+    """A tolerance of at most 2^-bits at which heyoka's order, ceil(1 - log(tolerance)/2), leaves 2 when divided by 4.
+
+    heyoka takes its step from the last two terms of the series.  From rest these have even powers of t only, and where
+    the force is even about the start, only t^2, t^6, t^10, ...: of other orders both terms could vanish, and with them
+    all control of the error.
+    """
+    order = math.ceil(1 + bits * math.log(2) / 2)
+    order += (2 - order) % 4
+    return _real(Fraction(1, 2 ** round((2 * order - 3) / math.log(2))), bits)
 
 
 def _real(value: Fraction, bits: int) -> Any:
