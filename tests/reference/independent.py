@@ -99,3 +99,52 @@ def landen_states(
             assert all(x.rel_accuracy_bits() > bits for x in state)
             found.append((fraction(state[0]), fraction(state[1])))
         return found
+
+
+def general_state(theta0: Any, omega0: Any, g: Any, length: Any, t: Any) -> tuple[Any, Any]:
+    """(theta, theta') of libration or rotation in mpmath's numbers, by the amplitude function with the start's phase.
+
+    sin(theta/2) = k sn(w t + phase) in libration, theta = 2 am(k w t + phase, 1/k) in rotation; the package spares
+    itself the phase.  Smooth in every argument, so that mpmath can differentiate it.
+    """
+    w, half, rate = mp.sqrt(g / length), theta0 / 2, omega0 / 2
+    kk = mp.sin(half) ** 2 + (rate / w) ** 2
+    if kk < 1:
+        u = w * t + mp.ellipf(mp.atan2(mp.sin(half), rate / w), kk)
+        theta = 2 * mp.asin(mp.sqrt(kk) * mp.ellipfun("sn", u, m=kk))
+        return theta, 2 * w * mp.sqrt(kk) * mp.ellipfun("cn", u, m=kk)
+    k, sign = mp.sqrt(kk), 1 if omega0 > 0 else -1
+    u = k * w * t + mp.ellipf(sign * half, 1 / kk)
+    turns = mp.nint(u / (2 * mp.ellipk(1 / kk)))
+    rest = u - 2 * turns * mp.ellipk(1 / kk)
+    theta = sign * 2 * (mp.asin(mp.ellipfun("sn", rest, m=1 / kk)) + turns * mp.pi)
+    return theta, sign * 2 * w * k * mp.ellipfun("dn", u, m=1 / kk)
+
+
+def released_state(theta0: Any, g: Any, length: Any, t: Any) -> tuple[Any, Any]:
+    """The same for a release from rest, by cd and sd."""
+    w, k = mp.sqrt(g / length), mp.sin(theta0 / 2)
+    u = w * t
+    rate = -2 * k * mp.cos(theta0 / 2) * w * mp.ellipfun("sd", u, k=k)
+    return 2 * mp.asin(k * mp.ellipfun("cd", u, k=k)), rate
+
+
+def condition_number(theta0: Any, omega0: Any, g: Any, length: Any, t: Any) -> Any:
+    """The largest singular value of d(theta, theta'/w)/d(theta0, omega0/w): differences, then an eigenvalue."""
+    w = mp.sqrt(g / length)
+
+    def scaled(angle: Any, rate: Any) -> tuple[Any, Any]:
+        theta, omega = general_state(angle, rate * w, g, length, t)
+        return theta, omega / w
+
+    start = (theta0, omega0 / w)
+    (a, b), (c, d) = (
+        [mp.diff(lambda x, y, i=i: scaled(x, y)[i], start, order) for order in ((1, 0), (0, 1))] for i in range(2)
+    )
+    trace = a * a + b * b + c * c + d * d
+    return mp.sqrt((trace + mp.sqrt(trace**2 - 4 * (a * d - b * c) ** 2)) / 2)
+
+
+def agm_period(theta0: Any, g: Any, length: Any) -> Any:
+    """The period of a release from rest, by Gauss' arithmetic-geometric mean."""
+    return 2 * mp.pi * mp.sqrt(length / g) / mp.agm(1, mp.cos(theta0 / 2))

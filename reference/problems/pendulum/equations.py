@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from reference.arithmetic import Arithmetic
 
-__all__ = ["angular_acceleration", "energy", "energy_above_rest"]
+__all__ = ["angular_acceleration", "condition", "energy", "energy_above_rest"]
 
 
 def angular_acceleration(m: Arithmetic, theta: Any, g: Any, length: Any) -> Any:
@@ -28,3 +28,13 @@ def energy_above_rest(m: Arithmetic, theta: Any, omega: Any, g: Any, length: Any
     """E - Emin = theta'^2/2 + 2 (g/l) sin^2(theta/2), in 1/s^2; without the cancellation of E + g/l."""
     half = m.sin(theta / 2)
     return omega * omega / 2 + 2 * (g / length) * half * half
+
+
+def condition(m: Arithmetic, w: Any, theta_theta: Any, theta_omega: Any, omega_theta: Any, omega_omega: Any) -> Any:
+    """The largest singular value of d(theta, omega/w)/d(theta0, omega0/w), from the slopes of theta, then of omega.
+
+    For a matrix ((a, b), (c, d)) it is (|(a + d, b - c)| + |(a - d, b + c)|)/2: nothing cancels.  A flow that keeps
+    areas has the other one as its inverse, so that the value is 1 or above.
+    """
+    a, b, c, d = theta_theta, theta_omega * w, omega_theta / w, omega_omega
+    return (m.sqrt((a + d) ** 2 + (b - c) ** 2) + m.sqrt((a - d) ** 2 + (b + c) ** 2)) / 2

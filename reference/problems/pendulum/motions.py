@@ -18,13 +18,15 @@ from mpmath import mp
 
 from reference.dual import DualArithmetic
 from reference.problem import ClosedForm
-from reference.problems.pendulum.equations import energy
+from reference.problems.pendulum.equations import condition, energy
 from reference.routes import quadrature
 
 if TYPE_CHECKING:
     from reference.arithmetic import EllipticArithmetic
 
 __all__ = [
+    "BY_QUADRATURE",
+    "CLOSED_FORMS",
     "Libration",
     "Motion",
     "QuadratureLibration",
@@ -57,7 +59,7 @@ class Motion(ClosedForm):
         self.s, self.c = m.sin(self.half), m.cos(self.half)
         self.w = m.sqrt(g / length)
         self.p = omega0 / (2 * self.w)
-        self._duals: dict[int, tuple[DualArithmetic, Motion]] = {}
+        self._known_duals: dict[int, tuple[DualArithmetic, Motion]] = {}
 
     @property
     def energy(self) -> Any:
@@ -87,22 +89,31 @@ class Motion(ClosedForm):
         """d(theta, theta')/dtheta0 at fixed t."""
         return self._slopes(1, t)
 
+    def curvature(self, t: Any) -> tuple[Any, ...]:
+        """d^2(theta, theta')/dtheta0^2 at fixed t."""
+        m, motion = self._duals(1)
+        return tuple(slope.slopes[0] for slope in motion._slopes(1, m.constant(t)))  # noqa: SLF001 - our own kind
+
+    def condition(self, t: Any) -> Any:
+        """How much an error of the start has grown by t, at most."""
+        return condition(self.m, self.w, *self._slopes(2, t))
+
     def _slopes(self, width: int, t: Any) -> tuple[Any, ...]:
         """The slopes of theta, then of theta', by the first ``width`` of theta0, omega0, g and l."""
-        if width not in self._duals:
-            self._duals[width] = self._dual(width)
-        m, motion = self._duals[width]
+        m, motion = self._duals(width)
         theta, omega = motion.state(m.constant(t))
         return *theta.slopes, *omega.slopes
 
-    def _dual(self, width: int) -> tuple[DualArithmetic, Motion]:
-        """The same motion in dual numbers."""
-        m = DualArithmetic(self.m, width)
-        theta0, omega0, g, length = (
-            m.variable(value, place) if place < width else m.constant(value)
-            for place, value in enumerate((self.theta0, self.omega0, self.g, self.length))
-        )
-        return m, type(self)(m, theta0, omega0, g, length, self.turns)
+    def _duals(self, width: int) -> tuple[DualArithmetic, Motion]:
+        """The same motion in dual numbers, with slopes by the first ``width`` of theta0, omega0, g and l."""
+        if width not in self._known_duals:
+            m = DualArithmetic(self.m, width)
+            theta0, omega0, g, length = (
+                m.variable(value, place) if place < width else m.constant(value)
+                for place, value in enumerate((self.theta0, self.omega0, self.g, self.length))
+            )
+            self._known_duals[width] = m, type(self)(m, theta0, omega0, g, length, self.turns)
+        return self._known_duals[width]
 
 
 class Libration(Motion):
@@ -124,6 +135,13 @@ class Libration(Motion):
         """dT/d(amplitude) = 2 (E - kc^2 K)/(w k kc), from dK/dk (DLMF 19.4.1)."""
         k, kc = self.modulus, self.complementary_modulus
         return 2 * (self.elliptic.second() - kc * kc * self.elliptic.first) / (self.w * k * kc)
+
+    @property
+    def d2period_damplitude2(self) -> Any:
+        """d^2 T/d(amplitude)^2, of a release from rest at theta0 = +-amplitude."""
+        _, motion = self._duals(1)
+        by_start = motion.dperiod_damplitude.slopes[0]  # type: ignore[attr-defined]
+        return by_start if self.s > 0 else -by_start
 
     @property
     def phase(self) -> Any:
@@ -233,3 +251,16 @@ class QuadratureRotation(Rotation):
 def complete_integral(kc: Any) -> Any:
     """K as twice the integral of (1 + kc^2 sinh^2 x)^(-1/2) over 0 <= x <= asinh(kc^(-1/2))."""
     return 2 * quadrature.integral(lambda x: 1 / mp.sqrt(1 + (kc * mp.sinh(x)) ** 2), 0, mp.asinh(1 / mp.sqrt(kc)))
+
+
+CLOSED_FORMS: dict[str, type[Motion]] = {
+    "libration": Libration,
+    "rotation": Rotation,
+    "separatrix": Separatrix,
+    "rest": Rest,
+}
+BY_QUADRATURE: dict[str, type[Motion]] = {
+    **CLOSED_FORMS,
+    "libration": QuadratureLibration,
+    "rotation": QuadratureRotation,
+}

@@ -18,39 +18,21 @@ from reference.problem import Row, SeparableProblem
 from reference.problems.pendulum.chart import MANY, Chart, chart
 from reference.problems.pendulum.equations import angular_acceleration, energy_above_rest
 from reference.problems.pendulum.events import DECISION_BITS, Events, events
-from reference.problems.pendulum.motions import (
-    Libration,
-    Motion,
-    QuadratureLibration,
-    QuadratureRotation,
-    Rest,
-    Rotation,
-    Separatrix,
-)
+from reference.problems.pendulum.motions import BY_QUADRATURE, CLOSED_FORMS, Motion
 from reference.problems.pendulum.quantities import ROWS, SERVED
-from reference.problems.pendulum.taylor import TaylorMotion
+from reference.problems.pendulum.taylor import TAYLOR_RADIANS, TaylorMotion
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
     from reference.certify import Certified
+    from reference.problems.pendulum.approximations import LindstedtSolution, PeriodSeries
 
 __all__ = ["Pendulum"]
 
-CLOSED_FORMS: dict[str, type[Motion]] = {
-    "libration": Libration,
-    "rotation": Rotation,
-    "separatrix": Separatrix,
-    "rest": Rest,
-}
-BY_QUADRATURE: dict[str, type[Motion]] = {
-    **CLOSED_FORMS,
-    "libration": QuadratureLibration,
-    "rotation": QuadratureRotation,
-}
-TAYLOR_RADIANS = 4000
-"""The Taylor route serves times up to sqrt(g/l) t = TAYLOR_RADIANS: beyond, its work would grow without bound."""
 PI = Fraction(math.pi)
+SOON = 1e-12
+"""Part of a period before which the Taylor route is not asked for events."""
 
 
 @dataclass(frozen=True, repr=False)
@@ -189,13 +171,19 @@ class Pendulum(SeparableProblem):
         return forms[self.motion](m, theta0, omega0, g, length, self.turns)
 
     def exact_row(self, row: str, argument: Any) -> tuple[Fraction, ...] | None:
-        if row == "state" and self.motion == "rest":
-            return self.start
+        one, zero = Fraction(1), Fraction(0)
+        if self.motion == "rest" and row in {"state", "condition"}:
+            return self.start if row == "state" else (one,)
         if argument != 0 or isinstance(argument, int):
             return None
-        one, zero = Fraction(1), Fraction(0)
         gradient = one, zero, zero, zero, zero, one, zero, zero
-        at_start = {"state": self.start, "sensitivity": (one, zero), "gradient": gradient}
+        at_start = {
+            "state": self.start,
+            "sensitivity": (one, zero),
+            "curvature": (zero, zero),
+            "gradient": gradient,
+            "condition": (one,),
+        }
         return at_start.get(row)
 
     def working_bits(self, arguments: Sequence[Any]) -> int:
@@ -233,9 +221,15 @@ class Pendulum(SeparableProblem):
         return TaylorMotion(self, bits)
 
     def within_taylor(self, row: str, arguments: Sequence[Any]) -> bool:
-        """Whether every argument lies in 0 <= sqrt(g/l) t <= TAYLOR_RADIANS, the last event included."""
+        """Whether every argument lies in 0 <= sqrt(g/l) t <= TAYLOR_RADIANS, the last event included.
+
+        An event almost at the start, but not there, is not found by an integration.
+        """
         if self.row(row).over == "index":
-            arguments = [Fraction(float(self.period())) * (index + 1) for index in arguments]
+            period = float(self.period())
+            if float(self.certified(row, 0)) < SOON * period:
+                return False
+            arguments = [Fraction(period) * (index + 1) for index in arguments]
         times = [t for t in arguments if isinstance(t, Fraction)]
         return all(t >= 0 and t * t * self.g / self.length <= TAYLOR_RADIANS**2 for t in times)
 
@@ -250,6 +244,26 @@ class Pendulum(SeparableProblem):
     def energy(self) -> Certified:
         """E = omega0^2/2 - (g/l) cos theta0, the energy per m l^2 in 1/s^2."""
         return self.certified("energy")
+
+    def period_series(self, order: int) -> PeriodSeries:
+        """The series of a released pendulum's period in its amplitude, up to theta0^(2 order), and its proven error.
+
+        Raises:
+            ValueError: the pendulum is not released from rest, or ``order`` is not an integer from 0 to 100.
+        """
+        from reference.problems.pendulum.approximations import period_series
+
+        return period_series(self, order)
+
+    def lindstedt(self, order: int) -> LindstedtSolution:
+        """The solution of Lindstedt and Poincare of a released pendulum, up to theta0^(2 order + 1), and its errors.
+
+        Raises:
+            ValueError: the pendulum is not released from rest, or ``order`` is not an integer from 0 to 100.
+        """
+        from reference.problems.pendulum.approximations import lindstedt
+
+        return lindstedt(self, order)
 
     def events(self, until: Any) -> Events:
         """The passages through the bottom and the turning points in (0, until].

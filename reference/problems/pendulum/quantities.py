@@ -1,11 +1,12 @@
-"""What can be asked of the pendulum: names, units and definitions."""
+"""What can be asked of the pendulum: names, units and definitions, w = sqrt(g/length) throughout."""
 
 from reference.problem import Quantity, Row
 
-__all__ = ["ROWS", "SERVED"]
+__all__ = ["LINDSTEDT_ROWS", "LINEAR_ROWS", "ROWS", "SERIES_ROWS", "SERVED"]
 
-THETA = Quantity("theta", "rad", "angle from the lower rest position", "theta = 2 atan(tan(theta0/2) cn(u, k))")
-OMEGA = Quantity("omega", "rad s-1", "angular velocity", "omega = dtheta/dt = -2 k kc omega0 sn(u, k)/dn(u, k)")
+START = "theta(0) = theta0, omega(0) = omega0"
+THETA = Quantity("theta", "rad", "angle from the lower rest position", f"theta'' = -(g/length) sin(theta), {START}")
+OMEGA = Quantity("omega", "rad s-1", "angular velocity", "omega = theta'")
 GRADIENT = tuple(
     Quantity(f"d{name}_d{start}", units, f"sensitivity of the {what} to {which}", f"d({name})/d({start}) at fixed t")
     for name, what, all_units in (
@@ -23,62 +24,174 @@ GRADIENT = tuple(
         strict=True,
     )
 )
+CONDITION = Quantity(
+    "condition",
+    "1",
+    "growth of an error of the start",
+    "largest singular value of d(theta, omega/w)/d(theta0, omega0/w) at fixed t, w = sqrt(g/length)",
+)
+PERIOD = Quantity(
+    "period", "s", "period", "T = 4 K(k)/w, in rotation the time of one turn T = 2 K(1/k)/(w k); w = sqrt(g/length)"
+)
+ENERGY = Quantity("energy", "s-2", "energy per m l^2", "E = omega^2/2 - (g/length) cos(theta)")
+MODULUS = Quantity("modulus", "1", "elliptic modulus", "k^2 = sin^2(theta0/2) + omega0^2 length/(4 g)")
+COMPLEMENTARY = Quantity(
+    "complementary_modulus", "1", "complementary elliptic modulus", "kc^2 = cos^2(theta0/2) - omega0^2 length/(4 g)"
+)
+ZERO_CROSSING = Quantity(
+    "zero_crossing",
+    "s",
+    "times at which the pendulum hangs at the bottom",
+    "t[j], the (j + 1)-th t > 0 with sin(theta/2) = 0, j = 0, 1, ...",
+)
+TURNING_POINT = Quantity(
+    "turning_point", "s", "times at which the pendulum turns back", "t[j], the (j + 1)-th t > 0 with omega = 0"
+)
+SENSITIVITY = (
+    Quantity("dtheta_damplitude", "1", "sensitivity of the angle to the amplitude", "dtheta/dtheta0 at fixed t"),
+    Quantity("domega_damplitude", "s-1", "sensitivity of the velocity to the amplitude", "domega/dtheta0 at fixed t"),
+)
+CURVATURE = (
+    Quantity(
+        "d2theta_damplitude2",
+        "rad-1",
+        "second derivative of the angle by the amplitude",
+        "d^2 theta/d(theta0)^2 at fixed t",
+    ),
+    Quantity(
+        "d2omega_damplitude2",
+        "rad-1 s-1",
+        "second derivative of the velocity by the amplitude",
+        "d^2 omega/d(theta0)^2 at fixed t",
+    ),
+)
+PERIOD_SLOPE = Quantity(
+    "dperiod_damplitude", "s rad-1", "sensitivity of the period to the amplitude", "dT/da, a = |theta0|"
+)
+PERIOD_CURVATURE = Quantity(
+    "d2period_damplitude2", "s rad-2", "second derivative of the period by the amplitude", "d^2 T/da^2, a = |theta0|"
+)
 FORMULA = (("taylor", "a formula of the inputs, which no motion gives"),)
 ROWS = (
     Row("state", (THETA, OMEGA), "time"),
+    Row("sensitivity", SENSITIVITY, "time"),
+    Row("curvature", CURVATURE, "time"),
+    Row("gradient", GRADIENT, "time"),
+    Row("condition", (CONDITION,), "time"),
+    Row("period", (PERIOD,), "once"),
+    Row("energy", (ENERGY,), "once"),
+    Row("modulus", (MODULUS,), "once", FORMULA),
+    Row("complementary_modulus", (COMPLEMENTARY,), "once", FORMULA),
+    Row("dperiod_damplitude", (PERIOD_SLOPE,), "once"),
+    Row("d2period_damplitude2", (PERIOD_CURVATURE,), "once"),
+    Row("zero_crossing", (ZERO_CROSSING,), "index"),
+    Row("turning_point", (TURNING_POINT,), "index"),
+)
+
+_ALWAYS = ("state", "energy", "gradient", "condition")
+_AMPLITUDE = {"sensitivity", "curvature", "dperiod_damplitude", "d2period_damplitude2"}
+SERVED = {
+    "rest": ("state", "gradient", "condition"),
+    "separatrix": _ALWAYS,
+    "rotation": (*_ALWAYS, "period", "modulus", "zero_crossing"),
+    "libration": tuple(row.name for row in ROWS if row.name not in _AMPLITUDE),
+    "release": tuple(row.name for row in ROWS),
+}
+"""The rows that each motion has; "release" is the libration that starts from rest."""
+
+LINEAR_ROWS = (
     Row(
-        "sensitivity",
+        "state",
         (
-            Quantity(
-                "dtheta_damplitude", "1", "sensitivity of the angle to the amplitude", "dtheta/dtheta0 at fixed t"
-            ),
-            Quantity(
-                "domega_damplitude", "s-1", "sensitivity of the velocity to the amplitude", "domega/dtheta0 at fixed t"
-            ),
+            Quantity("theta", "rad", "angle of the linearised pendulum", f"theta'' = -(g/length) theta, {START}"),
+            OMEGA,
         ),
         "time",
     ),
-    Row("gradient", GRADIENT, "time"),
-    Row("period", (Quantity("period", "s", "period", "T = 4 K(k)/omega0, omega0 = sqrt(g/l)"),), "once"),
+    Row("period", (Quantity("period", "s", "period of the linearised pendulum", "T = 2 pi sqrt(length/g)"),), "once"),
     Row(
         "energy",
-        (Quantity("energy", "s-2", "energy per m l^2", "E = omega^2/2 - (g/l) cos(theta) = -(g/l) cos(theta0)"),),
+        (
+            Quantity(
+                "energy", "s-2", "energy per m l^2 of the linearised pendulum", "E = (omega^2 + (g/length) theta^2)/2"
+            ),
+        ),
         "once",
     ),
-    Row("modulus", (Quantity("modulus", "1", "elliptic modulus", "k = sin(theta0/2)"),), "once", FORMULA),
+)
+
+SERIES_ROWS = (
     Row(
-        "complementary_modulus",
-        (Quantity("complementary_modulus", "1", "complementary elliptic modulus", "kc = cos(theta0/2)"),),
-        "once",
+        "period_series",
+        (
+            Quantity(
+                "period_series",
+                "s",
+                "period by its series in the amplitude",
+                "T_n = 2 pi sqrt(length/g) (1 + a^2/16 + ... up to a^(2 n)), a = theta0",
+            ),
+        ),
+        "index",
         FORMULA,
     ),
     Row(
-        "dperiod_damplitude",
-        (Quantity("dperiod_damplitude", "s rad-1", "sensitivity of the period to the amplitude", "dT/dtheta0"),),
-        "once",
-    ),
-    Row(
-        "zero_crossing",
-        (Quantity("zero_crossing", "s", "times at which theta = 0", "t[j] = (2 j + 1) T/4, j = 0, 1, ..."),),
+        "period_series_error",
+        (
+            Quantity(
+                "period_series_error", "1", "relative error of the period by its series", "T_n/T - 1, T the period"
+            ),
+        ),
         "index",
     ),
     Row(
-        "turning_point",
+        "lindstedt_error",
         (
             Quantity(
-                "turning_point", "s", "times at which omega = 0 after the start", "t[j] = (j + 1) T/2, j = 0, 1, ..."
+                "lindstedt_error",
+                "rad",
+                "error of the solution of Lindstedt and Poincare after one period",
+                "theta_n(T) - theta0, theta_n up to a^(2 n + 1), its frequency up to a^(2 n); T the exact period",
+            ),
+        ),
+        "index",
+    ),
+    Row(
+        "lindstedt_crossing_error",
+        (
+            Quantity(
+                "lindstedt_crossing_error",
+                "rad",
+                "error of the solution of Lindstedt and Poincare at the first passage through the bottom",
+                "theta_n(T/4), theta_n up to a^(2 n + 1), its frequency up to a^(2 n); T the exact period",
             ),
         ),
         "index",
     ),
 )
-
-_ALWAYS = ("state", "energy", "gradient")
-SERVED = {
-    "rest": ("state", "gradient"),
-    "separatrix": _ALWAYS,
-    "rotation": (*_ALWAYS, "period", "modulus", "zero_crossing"),
-    "libration": tuple(row.name for row in ROWS if row.name not in {"sensitivity", "dperiod_damplitude"}),
-    "release": tuple(row.name for row in ROWS),
-}
-"""The rows that each motion has; "release" is the libration that starts from rest."""
+LINDSTEDT_ROWS = (
+    Row(
+        "lindstedt_angle",
+        (
+            Quantity(
+                "lindstedt_angle",
+                "rad",
+                "angle by the solution of Lindstedt and Poincare",
+                "theta_n = sum_j a^(2 j + 1) sum_m c[j][m] cos(m w t), j = 0 ... n, a = theta0",
+            ),
+        ),
+        "time",
+        FORMULA,
+    ),
+    Row(
+        "lindstedt_angle_error",
+        (
+            Quantity(
+                "lindstedt_angle_error",
+                "rad",
+                "error of the angle by the solution of Lindstedt and Poincare",
+                "theta_n - theta",
+            ),
+        ),
+        "time",
+    ),
+)

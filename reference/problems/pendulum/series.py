@@ -11,15 +11,19 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import cache
 from math import comb, factorial
 from typing import TYPE_CHECKING, Any
+
+from flint import fmpq, fmpq_poly
 
 if TYPE_CHECKING:
     from reference.arithmetic import EllipticArithmetic
 
-__all__ = ["Lindstedt", "lindstedt", "period_series"]
+__all__ = ["Lindstedt", "lindstedt", "period_series", "polynomial"]
 
-MAX_ORDER = 200
+MAX_ORDER = 100
+"""In a second or two; each doubling takes some thirty times as long."""
 
 
 def period_series(order: int) -> tuple[Fraction, ...]:
@@ -69,7 +73,7 @@ class Lindstedt:
     def angle(self, m: EllipticArithmetic, amplitude: Any, g: Any, length: Any, t: Any) -> Any:
         """theta at t in an arithmetic: rad, for t in s, amplitude in rad, g in m/s^2, length in m."""
         square = amplitude * amplitude
-        frequency = m.sqrt(_horner(m, self.frequency_squared, square) * g / length)
+        frequency = m.sqrt(polynomial(m, self.frequency_squared, square) * g / length)
         waves = max(mode for harmonic in self.harmonics for mode in harmonic)
         cosines = {mode: m.cos(mode * frequency * t) for mode in range(1, waves + 1, 2)}
         total, power = 0, amplitude
@@ -79,7 +83,8 @@ class Lindstedt:
         return total
 
 
-def _horner(m: EllipticArithmetic, coefficients: tuple[Fraction, ...], x: Any) -> Any:
+def polynomial(m: EllipticArithmetic, coefficients: tuple[Fraction, ...], x: Any) -> Any:
+    """sum_j coefficients[j] x^j in an arithmetic."""
     value = m.number(coefficients[-1])
     for coefficient in reversed(coefficients[:-1]):
         value = value * x + m.number(coefficient)
@@ -96,42 +101,69 @@ def lindstedt(order: int) -> Lindstedt:
     Raises:
         ValueError: ``order`` is not an integer from 0 to MAX_ORDER.
     """
-    checked(order)
-    u: list[Harmonics] = [{1: Fraction(1)}]
-    w = [Fraction(1)]
+    return _lindstedt(checked(order))
+
+
+@cache
+def _lindstedt(order: int) -> Lindstedt:
+    sines, w = Sines(), [fmpq(1)]
+    bent = [_bent(sines.angle[0])]
     for j in range(1, order + 1):
-        forcing = _sine_part(u, j)
-        for i in range(1, j):
-            for mode, value in u[j - i].items():
-                forcing[mode] = forcing.get(mode, Fraction(0)) - w[i] * mode * mode * value
-        w.append(forcing.pop(1, Fraction(0)))
-        found = {mode: -value / (1 - mode * mode) for mode, value in forcing.items() if value}
-        found[1] = -sum(found.values(), Fraction(0))
-        u.append(found)
-    return Lindstedt(tuple(w), tuple(u))
+        forcing = sum((w[i] * bent[j - i] * Z_SQUARED**i for i in range(1, j)), sines.earlier())
+        resonant = forcing[j + 1]
+        w.append(2 * resonant)
+        found = [fmpq(0) if abs(m) == 1 else -forcing[i] / (1 - m * m) for i, m in _modes(j)]
+        found[j] = found[j + 1] = -sum(found, fmpq(0)) / 2
+        sines.add(fmpq_poly(found))
+        bent.append(_bent(sines.angle[j]))
+    return Lindstedt(tuple(map(_fraction, w)), tuple(_harmonics(j, u) for j, u in enumerate(sines.angle)))
 
 
-def _sine_part(u: list[Harmonics], j: int) -> Harmonics:
-    """The coefficient of a^(2j+1) in sin(theta) - theta, theta = sum_i a^(2i+1) u_i with i < j."""
-    total: Harmonics = {}
-    cube: list[Harmonics] = _times(_times(u, u, j), u, j)
-    square, power = _times(u, u, j), cube
-    for n in range(1, j + 1):
-        sign = Fraction((-1) ** n, factorial(2 * n + 1))
-        for mode, value in power[j - n].items():
-            total[mode] = total.get(mode, Fraction(0)) + sign * value
-        power = _times(power, square, j)
-    return total
+Z_SQUARED = fmpq_poly([0, 1])
 
 
-def _times(a: list[Harmonics], b: list[Harmonics], length: int) -> list[Harmonics]:
-    """The first ``length`` coefficients of a product of series whose coefficients are sums of cosines."""
-    result: list[Harmonics] = [{} for _ in range(length)]
-    for i, left in enumerate(a[:length]):
-        for k, right in enumerate(b[: length - i]):
-            into = result[i + k]
-            for p, x in left.items():
-                for q, y in right.items():
-                    for mode in (p + q, abs(p - q)):
-                        into[mode] = into.get(mode, Fraction(0)) + x * y / 2
-    return result
+class Sines:
+    """sin(theta) and cos(theta) of theta = sum_j a^(2j+1) u_j, coefficient by coefficient, u_0 = cos x.
+
+    By d(sin theta)/da = cos(theta) dtheta/da and d(cos theta)/da = -sin(theta) dtheta/da.  A coefficient of a^n is a
+    sum of cosines (z^m + z^-m)/2, z = exp(i x), m <= n of n's parity: here z^n times it, as a polynomial in z^2.
+    """
+
+    def __init__(self) -> None:
+        start = fmpq_poly([fmpq(1, 2), fmpq(1, 2)])
+        self.angle, self.sine, self.cosine = [start], [start], [fmpq_poly([1])]
+
+    def earlier(self) -> fmpq_poly:
+        """The next coefficient of sin(theta) without the next one of theta."""
+        j = len(self.angle)
+        self.cosine.append(self._convolved(self.sine, j - 1) * fmpq(-1, 2 * j))
+        self._earlier = self._convolved(self.cosine, j) * fmpq(1, 2 * j + 1)
+        return self._earlier
+
+    def add(self, angle: fmpq_poly) -> None:
+        """Take the next coefficient of theta."""
+        self.angle.append(angle)
+        self.sine.append(self._earlier + angle)
+
+    def _convolved(self, factor: list[fmpq_poly], last: int) -> fmpq_poly:
+        """Of dtheta/da and a factor: sum_k (2k+1) u_k factor[last - k] over the u_k that are known."""
+        known = enumerate(self.angle[: last + 1])
+        return sum(((2 * k + 1) * u * factor[last - k] for k, u in known), fmpq_poly([0]))
+
+
+def _modes(j: int) -> list[tuple[int, int]]:
+    """The places in a coefficient of a^(2j+1) and the m of z^m that stands there."""
+    return list(enumerate(range(-(2 * j + 1), 2 * j + 2, 2)))
+
+
+def _bent(u: fmpq_poly) -> fmpq_poly:
+    """The second derivative by x."""
+    return fmpq_poly([-m * m * u[i] for i, m in _modes(u.degree() // 2)])
+
+
+def _harmonics(j: int, u: fmpq_poly) -> Harmonics:
+    return {m: _fraction(2 * u[i]) for i, m in _modes(j) if m > 0 and u[i] != 0}
+
+
+def _fraction(value: fmpq) -> Fraction:
+    return Fraction(int(value.p), int(value.q))

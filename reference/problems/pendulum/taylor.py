@@ -6,7 +6,7 @@ from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
 from reference.arithmetic import MPMATH
-from reference.problems.pendulum.equations import energy
+from reference.problems.pendulum.equations import condition, energy
 from reference.routes import quadrature
 from reference.routes.taylor import Flow
 
@@ -16,7 +16,10 @@ if TYPE_CHECKING:
     from reference.arithmetic import Arithmetic
     from reference.problems.pendulum.problem import Pendulum
 
-__all__ = ["TaylorMotion"]
+__all__ = ["TAYLOR_RADIANS", "TaylorMotion", "hanging"]
+
+TAYLOR_RADIANS = 4000
+"""The Taylor route serves times up to sqrt(g/l) t = TAYLOR_RADIANS: beyond, its work would grow without bound."""
 
 
 class TaylorMotion:
@@ -30,11 +33,14 @@ class TaylorMotion:
         by_row: dict[str, Callable[[Sequence[Any]], list[tuple[Fraction, ...]]]] = {
             "state": self._flow.at,
             "sensitivity": lambda times: [state[2:] for state in self._flow.at(times, ("theta",))],
+            "curvature": lambda times: [state[4:] for state in self._flow.at(times, ("theta",), 2)],
+            "condition": self._conditions,
             "gradient": lambda times: [state[2:] for state in self._flow.at(times, EVERYTHING)],
             "zero_crossing": lambda indices: self._at_zeros(self._bottom, indices),
             "turning_point": lambda indices: self._at_zeros(at_rest, indices),
             "period": lambda _: [(self._period(),)],
-            "dperiod_damplitude": lambda _: [(self._period_by_amplitude(),)],
+            "dperiod_damplitude": lambda _: [(self._period_by_amplitude()[0],)],
+            "d2period_damplitude2": lambda _: [(self._period_by_amplitude()[1],)],
             "energy": lambda _: [(self._energy(),)],
         }
         return by_row[row](arguments)
@@ -49,11 +55,21 @@ class TaylorMotion:
         (first,), (second,) = self._at_zeros(self._bottom, (0, 1))
         return (second - first) * (1 if self._problem.motion == "rotation" else 2)
 
-    def _period_by_amplitude(self) -> Fraction:
-        """theta(T/4) = 0 for every amplitude: dT/dtheta0 = -4 (dtheta/dtheta0)/theta' at T/4."""
+    def _period_by_amplitude(self) -> tuple[Fraction, Fraction]:
+        """dT/da and d^2T/da^2, a = |theta0|, from theta(T/4) = 0 for every amplitude; theta'' = 0 there.
+
+        With q = T/4 and subscripts for derivatives by theta0: theta_a + omega q_a = 0 and
+        theta_aa + 2 omega_a q_a + omega q_aa = 0.
+        """
         ((quarter,),) = self._at_zeros(self._bottom, (0,))
-        ((_, omega, dtheta, _),) = self._flow.at([quarter], ("theta",))
-        return -4 * dtheta / omega * (1 if self._problem.theta0 > 0 else -1)
+        ((_, omega, theta_a, omega_a, theta_aa, _),) = self._flow.at([quarter], ("theta",), 2)
+        slope = -theta_a / omega
+        return 4 * slope * (1 if self._problem.theta0 > 0 else -1), -4 * (theta_aa + 2 * omega_a * slope) / omega
+
+    def _conditions(self, times: Sequence[Fraction]) -> list[tuple[Fraction, ...]]:
+        w = MPMATH.sqrt(MPMATH.number(self._problem.g / self._problem.length))
+        slopes = ([MPMATH.number(value) for value in state[2:]] for state in self._flow.at(times, ("theta", "omega")))
+        return [(quadrature.to_fraction(condition(MPMATH, w, *four)),) for four in slopes]
 
     def _energy(self) -> Fraction:
         """Of the state somewhere on the way."""
