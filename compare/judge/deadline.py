@@ -13,6 +13,9 @@ if TYPE_CHECKING:
 
 __all__ = ["TimeOut", "deadline"]
 
+AGAIN = 0.5
+"""Seconds after which what was not stopped is told again: a bare ``except`` may have kept it."""
+
 
 class TimeOut(BaseException):
     """The time is up: no ``except Exception`` of the user's keeps it."""
@@ -42,7 +45,7 @@ def _alarm(seconds: float) -> Iterator[None]:
         raise TimeOut
 
     before = signal.signal(signal.SIGALRM, ring)
-    signal.setitimer(signal.ITIMER_REAL, seconds)
+    signal.setitimer(signal.ITIMER_REAL, seconds, AGAIN)
     try:
         yield
     finally:
@@ -58,7 +61,9 @@ def _watch(seconds: float) -> Iterator[None]:
     lock = threading.Lock()
 
     def wait() -> None:
-        if not done.wait(seconds):
+        pause = seconds
+        while not done.wait(pause):
+            pause = AGAIN
             with lock:
                 if not done.is_set():
                     ctypes.pythonapi.PyThreadState_SetAsyncExc(here, ctypes.py_object(TimeOut))

@@ -77,7 +77,7 @@ def form_of(function: Callable[..., Any], name: str | None = None) -> Form:
         ValueError: it takes another number of arguments, or ``name`` is no form.
     """
     if not callable(function):
-        raise TypeError(f"the integrator is a {type(function).__name__}; a function is accepted.")
+        raise TypeError(f"the integrator is of type {type(function).__name__}; a function is accepted.")
     known = {form.name: form for form in FORMS}
     if name is not None and name not in known:
         raise ValueError(unknown("form", name, known))

@@ -28,6 +28,8 @@ FLAT = 0.5
 """A slope below this is no order."""
 SMALL = 1e-3
 """Relative error below which errors that stop falling have met a tolerance, not a mistake."""
+RECOGNISABLE = 0.1
+"""The same for a whole integrator that chooses its own steps, perhaps with a loose tolerance."""
 TOLERANCES = (0.02, 0.05, 0.1)
 """How far slopes of one range may lie from their middle: the first of these that gives enough of them."""
 ENOUGH = 4
@@ -91,7 +93,7 @@ def measured(marcher: Marcher, t_end: float, counts: Sequence[int]) -> Order:
     if not marcher.whole:
         return _measured(marcher, t_end, counts)
     first = _measured(marcher, t_end, counts[:FIRST_COUNTS])
-    if first.kind == "flat" and first.cells[-1].error <= SMALL:
+    if first.kind in {"flat", "floor"} and first.cells[-1].error <= RECOGNISABLE:
         return replace(first, value=None, kind="own steps")
     return _measured(marcher, t_end, counts)
 
@@ -185,7 +187,7 @@ def _range(slopes: Sequence[float], *, by_the_end: bool) -> tuple[int, int]:
 
 
 def _line(cells: Sequence[Cell], chosen: Sequence[Cell], slopes: Sequence[float], plateau: float | None) -> Order:
-    """One slope through the chosen cells; its interval is twice as wide as the local slopes, which may go on drifting."""
+    """One slope through the chosen cells; its interval is twice as wide as the local slopes lie, for they drift."""
     if len(chosen) < 2:
         return Order(tuple(cells), None, 0.0, "few", plateau)
     x, y = (
