@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from compare.algebraic import Q
+from compare.aspects import conserves
 from reference.arithmetic import BALL, NUMPY, Heyoka
 from reference.compiler import hy
 from reference.dual import Dual, DualArithmetic
@@ -55,7 +56,7 @@ class _Pi:
 class BoundSystem:
     """A problem's equation in one arithmetic, its parameters numbers of that arithmetic.
 
-    ``level`` is the invariant at the start of the march.
+    ``level`` is the invariant at the start of the march; where a problem has none, the level stands for it.
     """
 
     def __init__(self, problem: Problem, m: Any, parameters: dict[str, Any], fmt: Precision, level: Any) -> None:
@@ -86,7 +87,7 @@ class BoundSystem:
         return tuple(self._problem.force(self._m, positions, self._parameters))
 
     def invariant(self, y: State) -> Any:
-        return self._problem.invariant(self._m, y, self._parameters)
+        return self.level if not conserves(self._problem) else self._problem.invariant(self._m, y, self._parameters)
 
     def jacobian(self, y: State) -> tuple[State, ...]:
         return tuple(

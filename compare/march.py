@@ -9,19 +9,21 @@ from __future__ import annotations
 
 import copy
 import math
+import sys
 import time
 from collections import defaultdict
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from fractions import Fraction
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from compare.aspects import conserves
 from compare.trace import compile_block, entry_rows, plain_block
 from reference.arithmetic import BALL
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
-    from fractions import Fraction
 
     from flint import arb
 
@@ -85,7 +87,9 @@ class StartInvariant:
     problem: Problem
 
     def ball(self) -> arb:
-        """The enclosure at the precision in force."""
+        """The enclosure at the precision in force; 0 where the problem conserves nothing."""
+        if not conserves(self.problem):
+            return BALL.number(Fraction(0))
         start = [BALL.number(value) for value in self.problem.start]
         parameters = {name: BALL.number(value) for name, value in self.problem.parameters.items()}
         ball: arb = self.problem.invariant(BALL, start, parameters)
@@ -115,11 +119,11 @@ def _block_steps(grain: int, size: int, fmt: Precision, opening: int) -> int:
 
 def iterations_for(method: Method, problem: Problem, h: float, bits: int) -> int:
     """Iterations that bring the equations of an implicit step to rounding; 0 for an explicit method."""
-    return method.iterations(h * problem.rate(), bits)
+    return method.iterations(max(h * problem.rate(), sys.float_info.min), bits)
 
 
 def march(method: Method, lanes: Sequence[Lane], fmt: Precision) -> list[March]:
-    """March every lane, all of one family of problems, and return what each gave, in order.
+    """March every lane, and return what each gave, in order.
 
     Raises:
         ValueError: the method needs a separable problem and this one is not.
@@ -152,16 +156,23 @@ def march_alone(method: Method, lanes: Sequence[Lane], fmt: Precision) -> list[t
 
 def _groups(method: Method, lanes: Sequence[Lane], fmt: Precision) -> Iterator[tuple[list[int], _Group]]:
     """The lanes, by their places, that share a compiled block, in order of falling N; each with its group."""
-    groups: dict[tuple[int, int], list[int]] = defaultdict(list)
+    groups: dict[Any, list[int]] = defaultdict(list)
     for i, lane in enumerate(lanes):
         if method.separable_only and not getattr(lane.problem, "positions", 0):
             raise ValueError(f"{method.name} splits kicks from drifts, and {lane.problem.name} is not separable.")
         iterations = iterations_for(method, lane.problem, float(lane.h), fmt.bits)
         grain = _grain(lane.n)
-        groups[grain if all(step % grain == 0 for step in lane.samples) else 1, iterations].append(i)
-    for (grain, iterations), members in groups.items():
+        if any(step % grain for step in lane.samples):
+            grain = 1
+        groups[_equation(lane.problem), grain, iterations].append(i)
+    for (_, grain, iterations), members in groups.items():
         members.sort(key=lambda i: -lanes[i].n)
         yield members, _Group(method, [lanes[i] for i in members], fmt, grain, iterations)
+
+
+def _equation(problem: Problem) -> Any:
+    """What problems must share to share a block: an equation, which on a curve depends on more than parameters."""
+    return type(problem), getattr(problem, "curve", None)
 
 
 class _Group:

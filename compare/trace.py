@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 
 from compare.algebraic import Q
+from compare.aspects import aspect_of
 from compare.bound import BoundSystem, plain_system
 from compare.sine import LaneArithmetic
 from reference.arithmetic import Heyoka
@@ -178,16 +179,17 @@ def _trust(block: Block, method: Method, problem: Problem, fmt: Precision, itera
 
 
 def _random_points(problem: Problem, fmt: Precision, batch: int) -> tuple[np.ndarray, np.ndarray]:
-    """Random states within (-3, 3), step sizes within (0.01, 0.1), parameters within (1/2, 2), each its own level."""
+    """Random states, step sizes and parameters within the family's intervals for a trial, each its own level."""
     random = np.random.default_rng(20260101)
     lanes_count = batch * -(-CHECK_LANES // batch)
+    trial = aspect_of(problem).trial
 
     def column(low: float, high: float) -> np.ndarray:
         return fmt.array(Q(float(value)) for value in random.uniform(low, high, lanes_count))
 
-    states = np.stack([column(-3, 3) for _ in problem.state_names])
-    values = [column(0.5, 2) for _ in problem.parameters]
-    h = column(0.01, 0.1)
+    states = np.stack([column(*trial.state(i)) for i in range(len(problem.state_names))])
+    values = [column(*trial.parameter(name)) for name in problem.parameters]
+    h = column(*trial.step)
     parameters = np.stack([h, fmt.zeros(h.shape), *values])
     parameters[1] = plain_system(problem, fmt, parameters).invariant(tuple(states))
     return states, parameters
