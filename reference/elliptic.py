@@ -7,6 +7,7 @@ cannot be had from the other without loss.
 from __future__ import annotations
 
 import math
+from functools import cached_property
 from typing import Any, Protocol
 
 from flint import acb, arb, arb_poly, arb_series, ctx
@@ -16,7 +17,7 @@ __all__ = ["BallElliptic", "Elliptic", "MpmathElliptic", "sine_polynomial"]
 
 
 class Elliptic(Protocol):
-    """K(k), E(k), sn, cn, dn and Jacobi's epsilon function at one fixed modulus."""
+    """K(k), E(k), sn, cn, dn and Jacobi's epsilon function at one fixed modulus and one working precision."""
 
     first: Any
     """K, the complete integral of the first kind."""
@@ -46,6 +47,10 @@ class BallElliptic:
         self._scale = t3 / t2, t4 / t2, t4 / t3
 
     def second(self) -> arb:
+        return self._second
+
+    @cached_property
+    def _second(self) -> arb:
         return acb(self.k * self.k).elliptic_e().real
 
     def functions(self, u: arb) -> tuple[arb, arb, arb]:
@@ -93,6 +98,10 @@ class MpmathElliptic:
         self.first = mp.pi / (2 * mp.agm(1, kc))
 
     def second(self) -> Any:
+        return self._second
+
+    @cached_property
+    def _second(self) -> Any:
         return mp.ellipe(self.m)
 
     def functions(self, u: Any) -> tuple[Any, Any, Any]:
