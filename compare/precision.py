@@ -49,6 +49,8 @@ class Precision:
 
     def number(self, value: Coefficient | Enclosed) -> Any:
         """``value``, an exact number or what encloses itself in a ball, correctly rounded (subnormals excepted)."""
+        if self.type is float and isinstance(value, (int, Fraction)):
+            return value.numerator / value.denominator  # Python rounds the quotient of two integers correctly
         return self._scalar(*self.parts(value))
 
     def parts(self, value: Coefficient | Enclosed) -> tuple[int, int]:

@@ -1,0 +1,57 @@
+"""Which cells of a study are on the rounding floor: their error is rounding's, not the method's.
+
+A course and its neighbour, from a start close by, err differently by rounding alone, as the method and the problem
+carry it along.  A cell within FLOOR_FACTOR of that difference is on the floor, and so is every finer one; but a
+difference that N roundings cannot account for is of a step too large, not of rounding.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from compare.march import march
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from compare.contract import Method
+    from compare.precision import Precision
+    from compare.scores import Course
+    from reference.problem import Problem
+
+__all__ = ["FLOOR_FACTOR", "floors_of"]
+
+FLOOR_FACTOR = 10
+
+
+def floors_of(method: Method, courses: Sequence[Course], errors: Sequence[np.ndarray], fmt: Precision) -> list[bool]:
+    """Which courses are on the floor, given the errors of their marches; each problem's are in order of N.
+
+    A neighbour is marched only where the error is so small that it may be rounding, and no coarser course is on the
+    floor: most are not, and those that are have few steps.
+    """
+    largest = [float(np.max(np.abs(error[:, 0]))) for error in errors]
+    doubtful = [size <= FLOOR_FACTOR * course.roundings for size, course in zip(largest, courses, strict=True)]
+    places: dict[Problem, list[int]] = {}
+    for i, course in enumerate(courses):
+        places.setdefault(course.problem, []).append(i)
+    floors = [False] * len(courses)
+    while waiting := _coarsest(places, doubtful):
+        neighbours = [courses[i].neighbour for i in waiting]
+        marches = march(method, [neighbour.lane for neighbour in neighbours], fmt)
+        for i, neighbour, result in zip(waiting, neighbours, marches, strict=True):
+            noise = float(np.max(np.abs(errors[i] - neighbour.errors(result))[:, 0]))
+            doubtful[i] = False
+            if largest[i] <= FLOOR_FACTOR * noise and noise <= courses[i].roundings:
+                members = places[courses[i].problem]
+                for finer in members[members.index(i) :]:
+                    floors[finer], doubtful[finer] = True, False
+    return floors
+
+
+def _coarsest(places: dict[Problem, list[int]], doubtful: Sequence[bool]) -> list[int]:
+    """The first doubtful course of every problem that has one."""
+    firsts = (next((i for i in members if doubtful[i]), None) for members in places.values())
+    return [i for i in firsts if i is not None]
