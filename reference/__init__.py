@@ -9,19 +9,24 @@ if TYPE_CHECKING:
     import os
 
     from reference.certify import Certified
-    from reference.problems.cycloid import Cycloid, Tautochrone
+    from reference.problems.cycloid import Cycloid, CycloidalPendulum, CycloidArc, Tautochrone
     from reference.problems.descent import Descent
-    from reference.problems.pendulum import Pendulum
+    from reference.problems.pendulum import LinearPendulum, Pendulum
     from reference.problems.polar import PolarBrachistochrone
+    from reference.problems.tunnel import Tunnel
     from reference.store import Dataset
 
 __all__ = [
     "Certified",
     "Cycloid",
+    "CycloidArc",
+    "CycloidalPendulum",
     "Descent",
+    "LinearPendulum",
     "Pendulum",
     "PolarBrachistochrone",
     "Tautochrone",
+    "Tunnel",
     "__version__",
     "load",
 ]
@@ -31,10 +36,14 @@ __version__ = "0.1.0"
 _HOMES = {
     "Certified": "reference.certify",
     "Cycloid": "reference.problems.cycloid",
+    "CycloidArc": "reference.problems.cycloid",
+    "CycloidalPendulum": "reference.problems.cycloid",
     "Descent": "reference.problems.descent",
+    "LinearPendulum": "reference.problems.pendulum",
     "Pendulum": "reference.problems.pendulum",
     "PolarBrachistochrone": "reference.problems.polar",
     "Tautochrone": "reference.problems.cycloid",
+    "Tunnel": "reference.problems.tunnel",
 }
 
 

@@ -7,8 +7,9 @@ from typing import TYPE_CHECKING, Any
 from reference.at import Family, Input, pair, text
 from reference.problems.cycloid import Cycloid, Tautochrone
 from reference.problems.descent import RACE, Descent
-from reference.problems.pendulum import Pendulum
+from reference.problems.pendulum import LinearPendulum, Pendulum
 from reference.problems.polar import PolarBrachistochrone
+from reference.problems.tunnel import Tunnel
 
 if TYPE_CHECKING:
     from fractions import Fraction
@@ -18,6 +19,9 @@ __all__ = ["FAMILIES"]
 GRAVITY = Input("g", "m s-2", "acceleration of gravity", "9.81")
 TIME = Input("t", "s", "time", optional=True, over="time")
 IN_A_FIELD = (
+    "state",
+    "curve",
+    "by_z",
     "z0",
     "kappa",
     "half_angle",
@@ -28,6 +32,9 @@ IN_A_FIELD = (
     "time_unit",
     "descent_seconds",
     "arrival_seconds",
+    "si_state",
+    "si_curve",
+    "neighbour_gap",
 )
 
 
@@ -46,6 +53,22 @@ def descent(curve: str, g: Fraction, **ends: Any) -> Descent:
     return Descent(curve, g, **ends)
 
 
+def in_a_field(strength: Input, unit: str) -> tuple[Input, ...]:
+    """What a brachistochrone in a central field asks for, its strength and its unit of time given."""
+    return (
+        Input("z0", "1", "height of the lowest point, or else --end", optional=True),
+        Input("end", "", "end point R,PHI: its radius over r0 and its angle in rad", optional=True, read=pair),
+        Input("r0", "m", "radius of the release", optional=True),
+        strength,
+        Input("body", "", f"instead of {strength.name} a body: earth", optional=True, read=text),
+        Input("tau", "1", f"time in units of {unit}", optional=True, over="tau"),
+        Input("psi", "rad", "parameter of the curve, pi at the lowest point", optional=True, over="psi"),
+        Input("z", "1", "height on the way down", optional=True, over="z"),
+        Input("t", "s", "time, where r0 is given", optional=True, over="time"),
+        Input("epsilon", "1", "size of a neighbouring curve's deviation", optional=True, over="epsilon"),
+    )
+
+
 FAMILIES = (
     Family(
         "pendulum",
@@ -54,6 +77,19 @@ FAMILIES = (
         (
             Input("theta0", "rad", "angle of the start; released from rest, 0 < theta0 < pi"),
             Input("omega0", "rad s-1", "angular velocity of the start; without it, released from rest", optional=True),
+            GRAVITY,
+            Input("length", "m", "length", "1"),
+            Input("t", "s", "time", over="time"),
+        ),
+        ("state", "period", "energy"),
+    ),
+    Family(
+        "linear",
+        "the linearised pendulum",
+        LinearPendulum,
+        (
+            Input("theta0", "rad", "angle of the start"),
+            Input("omega0", "rad s-1", "angular velocity of the start", "0"),
             GRAVITY,
             Input("length", "m", "length", "1"),
             Input("t", "s", "time", over="time"),
@@ -119,18 +155,17 @@ FAMILIES = (
         "polar",
         "the brachistochrone in the field of a point mass, z = r/r0, from rest; inside a real body an idealisation",
         PolarBrachistochrone,
-        (
-            Input("z0", "1", "height of the lowest point, or else --end", optional=True),
-            Input("end", "", "end point R,PHI: its radius over r0 and its angle in rad", optional=True, read=pair),
-            Input("r0", "m", "radius of the release", optional=True),
+        in_a_field(
             Input("gm", "m3 s-2", "gravitational constant times mass, with r0", optional=True),
-            Input("body", "", "instead of gm a body: earth", optional=True, read=text),
-            Input("tau", "1", "time in units of sqrt(r0^3/(2 G M))", optional=True, over="tau"),
-            Input("psi", "rad", "parameter of the curve, pi at the lowest point", optional=True, over="psi"),
-            Input("z", "1", "height on the way down", optional=True, over="z"),
-            Input("t", "s", "time, where r0 is given", optional=True, over="time"),
-            Input("epsilon", "1", "size of a neighbouring curve's deviation", optional=True, over="epsilon"),
+            "sqrt(r0^3/(2 G M))",
         ),
-        ("state", "curve", "by_z", *IN_A_FIELD, "si_state", "si_curve", "neighbour_gap"),
+        IN_A_FIELD,
+    ),
+    Family(
+        "tunnel",
+        "the fastest tunnel through a planet of uniform density, z = r/r0, from rest at its surface",
+        Tunnel,
+        in_a_field(Input("g", "m s-2", "gravity at the surface, with r0", optional=True), "sqrt(r0/g)"),
+        IN_A_FIELD,
     ),
 )

@@ -8,21 +8,37 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from reference.plan import Coordinate, Group, Layout
-from reference.problems.pendulum import Pendulum
+from reference.problems.pendulum import LinearPendulum, Pendulum, PendulumSeries
 from reference.problems.pendulum.quantities import SERVED
 
 if TYPE_CHECKING:
-    from reference.problem import Row
+    from reference.problem import Problem, Row
 
-__all__ = ["DIMENSIONLESS", "EARTH", "LAYOUTS", "LIBRATION", "LONG", "UNIT", "core", "full"]
+__all__ = [
+    "DIMENSIONLESS",
+    "EARTH",
+    "LAYOUTS",
+    "LIBRATION",
+    "LINEAR",
+    "LONG",
+    "ROTATION",
+    "SEPARATRIX",
+    "SERIES",
+    "UNIT",
+    "core",
+    "full",
+]
 
 AMPLITUDE = Coordinate("amplitude", "rad", "amplitude theta0, the angle at which the pendulum is released")
 TIME = Coordinate("time", "s", "time since the release")
 EVENT = Coordinate("event", "1", "number of the event", "0, 1, 2, ...", whole=True)
+ORDER = Coordinate("order", "1", "order n of the expansion, up to amplitude^(2 n)", "0, 1, 2, ...", whole=True)
+INITIAL_OMEGA = Coordinate("initial_omega", "rad s-1", "angular velocity at the start, at the bottom")
 GRAVITY = Coordinate("g", "m s-2", "acceleration of gravity")
 LENGTH = Coordinate("length", "m", "length of the pendulum")
 ELLIPTIC = "P. F. Byrd and M. D. Friedman, Handbook of Elliptic Integrals, Springer 1971; DLMF chapter 22"
-RELEASED = "theta'' = -(g/l) sin(theta), theta(0) = amplitude, theta'(0) = 0"
+RELEASED = "theta'' = -(g/length) sin(theta), theta(0) = amplitude, theta'(0) = 0"
+SET_GOING = "theta'' = -(g/length) sin(theta), theta(0) = 0, theta'(0) = initial_omega"
 
 
 def released(amplitude: float, g: float, length: float) -> Pendulum:
@@ -30,9 +46,24 @@ def released(amplitude: float, g: float, length: float) -> Pendulum:
     return Pendulum(theta0=amplitude, g=g, length=length)
 
 
-def rows(*names: str) -> tuple[Row, ...]:
-    """The pendulum's rows of these names."""
-    return tuple(row for row in Pendulum.rows if row.name in names)
+def set_going(initial_omega: float, g: float, length: float) -> Pendulum:
+    """The pendulum that passes the bottom at ``initial_omega`` (rad/s) at t = 0."""
+    return Pendulum(theta0=0, omega0=initial_omega, g=g, length=length)
+
+
+def linear(amplitude: float, g: float, length: float) -> LinearPendulum:
+    """The linearised pendulum released from rest."""
+    return LinearPendulum(amplitude, g, length)
+
+
+def expanded(amplitude: float, g: float, length: float) -> PendulumSeries:
+    """The expansions in the amplitude of the pendulum released from rest."""
+    return PendulumSeries(amplitude, g, length)
+
+
+def rows(*names: str, of: type[Problem] = Pendulum) -> tuple[Row, ...]:
+    """The rows of these names."""
+    return tuple(row for row in of.rows if row.name in names)
 
 
 def from_rest(path: str, long_name: str, stored: tuple[Row, ...], difficulty: str) -> Layout:
@@ -63,7 +94,55 @@ LONG = from_rest(
     rows("state"),
     "higher: the error of the phase grows with the time, over up to 5e8 periods",
 )
-LAYOUTS = (LIBRATION, DIMENSIONLESS, LONG)
+ROTATION = Layout(
+    "/pendulum/rotation",
+    "pendulum that goes over the top, set going at the bottom",
+    (INITIAL_OMEGA,),
+    {"time": TIME, "index": EVENT},
+    (GRAVITY, LENGTH),
+    rows("state", "gradient", "condition", "period", "energy", "modulus", "zero_crossing"),
+    set_going,
+    ELLIPTIC,
+    SET_GOING,
+    "average; higher just above the separatrix, where an error of the start grows a millionfold in one turn",
+)
+SEPARATRIX = Layout(
+    "/pendulum/separatrix",
+    "pendulum with just the energy to reach the top, which it never does",
+    (),
+    {"time": TIME},
+    (INITIAL_OMEGA, GRAVITY, LENGTH),
+    rows("state", "gradient", "condition"),
+    set_going,
+    ELLIPTIC,
+    f"{SET_GOING}, initial_omega^2 = 4 g/length",
+    "higher: an error of the start grows like exp(t), and any integrator falls to one side in the end",
+)
+LINEAR = Layout(
+    "/pendulum/linear",
+    "linearised pendulum released from rest",
+    (AMPLITUDE,),
+    {"time": TIME},
+    (GRAVITY, LENGTH),
+    LinearPendulum.rows,
+    linear,
+    "any textbook of mechanics",
+    "theta'' = -(g/length) theta, theta(0) = amplitude, theta'(0) = 0",
+    "lower: harmonic",
+)
+SERIES = Layout(
+    "/pendulum/series",
+    "errors of the expansions in powers of the amplitude, by their order",
+    (AMPLITUDE,),
+    {"index": ORDER},
+    (GRAVITY, LENGTH),
+    PendulumSeries.rows,
+    expanded,
+    "A. H. Nayfeh, Perturbation Methods, Wiley 1973, section 3.1",
+    f"{RELEASED}, by the series of its period and by the solution of Lindstedt and Poincare",
+    "no integration: how good a formula is",
+)
+LAYOUTS = (LIBRATION, DIMENSIONLESS, LONG, ROTATION, SEPARATRIX, LINEAR, SERIES)
 
 EARTH = {"g": 9.81, "length": 1.0}
 UNIT = {"g": 1.0, "length": 1.0}
@@ -74,6 +153,9 @@ LONG_AMPLITUDES = (0.001, 1.0, 2.0, 3.0, 3.14)
 EVENTS = 8
 LONG_TAYLOR_ELEMENTS = 7
 """Times 2^0 ... 2^6 s are integrated; later ones would take minutes each."""
+TO_THE_TOP = math.sqrt(4 * EARTH["g"])
+ROTATION_OMEGAS = (TO_THE_TOP * (1 + 1e-12), TO_THE_TOP * (1 + 1e-6), 6.3, 6.5, 7.0, 8.0, 12.0, 40.0)
+SERIES_AMPLITUDES = (0.01, 0.1, 0.5, 1.0, 1.5, 2.0)
 
 
 def core() -> tuple[Group, ...]:
@@ -86,6 +168,14 @@ def core() -> tuple[Group, ...]:
         ),
         Group(DIMENSIONLESS, UNIT, {"amplitude": FEW_BIT_AMPLITUDES, "time": np.arange(1025) / 16}),
         Group(LONG, EARTH, {"amplitude": LONG_AMPLITUDES, "time": 2.0 ** np.arange(31)}, LONG_TAYLOR_ELEMENTS),
+        Group(
+            ROTATION,
+            EARTH,
+            {"initial_omega": ROTATION_OMEGAS, "time": np.arange(251) / 50, "event": np.arange(EVENTS)},
+        ),
+        Group(SEPARATRIX, {"initial_omega": 2.0, **UNIT}, {"time": np.arange(1025) / 32}),
+        Group(LINEAR, EARTH, {"amplitude": LIBRATION_AMPLITUDES[:7], "time": np.arange(1001) / 100}),
+        Group(SERIES, EARTH, {"amplitude": SERIES_AMPLITUDES, "order": np.arange(6)}),
     )
 
 
@@ -102,4 +192,16 @@ def full() -> tuple[Group, ...]:
         ),
         Group(DIMENSIONLESS, UNIT, {"amplitude": sixty_fourths, "time": np.arange(8193) / 128}),
         Group(LONG, EARTH, {"amplitude": amplitudes, "time": halves}, 4 * LONG_TAYLOR_ELEMENTS - 3),
+        Group(
+            ROTATION,
+            EARTH,
+            {
+                "initial_omega": np.concatenate([ROTATION_OMEGAS, np.arange(101, 129) / 16]),
+                "time": np.arange(5001) / 1000,
+                "event": np.arange(8 * EVENTS),
+            },
+        ),
+        Group(SEPARATRIX, {"initial_omega": 2.0, **UNIT}, {"time": np.arange(8193) / 256}),
+        Group(LINEAR, EARTH, {"amplitude": LIBRATION_AMPLITUDES, "time": np.arange(10_001) / 1000}),
+        Group(SERIES, EARTH, {"amplitude": sixty_fourths[:128], "order": np.arange(41)}),
     )

@@ -8,15 +8,17 @@ import numpy as np
 
 from reference.plan import Coordinate, Group, Layout
 from reference.problems.polar import PolarBrachistochrone
+from reference.problems.tunnel import Tunnel
 
 if TYPE_CHECKING:
     from reference.problem import Problem, Row
 
-__all__ = ["BOUNDARY", "FAMILY", "LAYOUTS", "MOTION", "core", "full"]
+__all__ = ["BOUNDARY", "FAMILY", "LAYOUTS", "MOTION", "TUNNEL_FAMILY", "TUNNEL_MOTION", "core", "full"]
 
 Z0 = Coordinate("z0", "1", "height of the lowest point, r/r0")
 PSI = Coordinate("psi", "rad", "parameter of the curve: 0 at the release, pi at the lowest point")
 TAU = Coordinate("tau", "1", "time since the release in units of sqrt(r0^3/(2 G M))")
+TAU_INSIDE = Coordinate("tau", "1", "time since the release in units of sqrt(r0/g), g at the surface")
 EPSILON = Coordinate("epsilon", "1", "size of the neighbouring curve's deviation")
 END_Z = Coordinate("end_z", "1", "height of the end point, r/r0")
 END_PHI = Coordinate("end_phi", "rad", "angle of the end point")
@@ -80,7 +82,37 @@ BOUNDARY = Layout(
     BOUNDARY_PROBLEM,
     "higher: a boundary-value problem, whose solutions end where the angle at z = 1 reaches 2 pi/3",
 )
-LAYOUTS = (FAMILY, MOTION, BOUNDARY)
+TUNNEL_SOURCE = "G. Venezian, Am. J. Phys. 34 (1966) 701"
+TUNNEL_EQUATION = (
+    "the least time from rest at the surface z = r/r0 = 1 through the lowest point z0, gravity proportional to r: "
+    "z'' = -z + kappa (1 - z^4)/z^3, phi' = sqrt(kappa) (1 - z^2)/z^2, kappa = z0^2/(1 - z0^2)"
+)
+TUNNEL_DIFFICULTY = "average: a hypocycloid, with a cusp at either end"
+TUNNEL_FAMILY = Layout(
+    "/tunnel/family",
+    "fastest tunnels through a planet of uniform density, by their lowest point",
+    (Z0,),
+    {"psi": PSI, "epsilon": EPSILON},
+    (),
+    rows(Tunnel, "curve", *ONCE, "neighbour_gap"),
+    Tunnel,
+    TUNNEL_SOURCE,
+    TUNNEL_EQUATION,
+    TUNNEL_DIFFICULTY,
+)
+TUNNEL_MOTION = Layout(
+    "/tunnel/motion",
+    "motion in time through these tunnels, down and up again",
+    (Z0,),
+    {"tau": TAU_INSIDE},
+    (),
+    rows(Tunnel, "state"),
+    Tunnel,
+    TUNNEL_SOURCE,
+    TUNNEL_EQUATION,
+    TUNNEL_DIFFICULTY,
+)
+LAYOUTS = (FAMILY, MOTION, BOUNDARY, TUNNEL_FAMILY, TUNNEL_MOTION)
 
 LOWEST = (0.01, *(k / 20 for k in range(1, 20)), 0.99)
 ENDS = tuple((z, phi) for z in (1.0, 0.75, 0.5, 0.25) for phi in (0.25, 0.5, 1.0, 1.5))
@@ -93,6 +125,8 @@ def core() -> tuple[Group, ...]:
         Group(FAMILY, {}, {"z0": LOWEST, "psi": np.arange(202) / 64, "epsilon": epsilon}),
         Group(MOTION, {}, {"z0": LOWEST, "tau": np.arange(193) / 64}),
         Group(BOUNDARY, {}, {"end_z": [end[0] for end in ENDS], "end_phi": [end[1] for end in ENDS]}),
+        Group(TUNNEL_FAMILY, {}, {"z0": LOWEST[::4], "psi": np.arange(202) / 64, "epsilon": epsilon}),
+        Group(TUNNEL_MOTION, {}, {"z0": LOWEST[::4], "tau": np.arange(193) / 64}),
     )
 
 
@@ -105,4 +139,6 @@ def full() -> tuple[Group, ...]:
         Group(FAMILY, {}, {"z0": lowest, "psi": np.arange(1601) / 512, "epsilon": epsilon}),
         Group(MOTION, {}, {"z0": lowest, "tau": np.arange(3073) / 1024}),
         Group(BOUNDARY, {}, {"end_z": [end[0] for end in ends], "end_phi": [end[1] for end in ends]}),
+        Group(TUNNEL_FAMILY, {}, {"z0": lowest, "psi": np.arange(1601) / 512, "epsilon": epsilon}),
+        Group(TUNNEL_MOTION, {}, {"z0": lowest, "tau": np.arange(3073) / 1024}),
     )
