@@ -156,47 +156,51 @@ class Heyoka:
     def number(self, value: Fraction) -> Any:
         return self._number(value)
 
+    def _term(self, x: Any) -> Any:
+        """An expression, of a constant too."""
+        return x if isinstance(x, self._hy.expression) else self._hy.expression(x)
+
     def sin(self, x: Any) -> Any:
-        return self._hy.sin(x)
+        return self._hy.sin(self._term(x))
 
     def cos(self, x: Any) -> Any:
-        return self._hy.cos(x)
+        return self._hy.cos(self._term(x))
 
     def tan(self, x: Any) -> Any:
-        return self._hy.tan(x)
+        return self._hy.tan(self._term(x))
 
     def asin(self, x: Any) -> Any:
-        return self._hy.asin(x)
+        return self._hy.asin(self._term(x))
 
     def acos(self, x: Any) -> Any:
-        return self._hy.acos(x)
+        return self._hy.acos(self._term(x))
 
     def atan(self, x: Any) -> Any:
-        return self._hy.atan(x)
+        return self._hy.atan(self._term(x))
 
     def sinh(self, x: Any) -> Any:
-        return self._hy.sinh(x)
+        return self._hy.sinh(self._term(x))
 
     def cosh(self, x: Any) -> Any:
-        return self._hy.cosh(x)
+        return self._hy.cosh(self._term(x))
 
     def tanh(self, x: Any) -> Any:
-        return self._hy.tanh(x)
+        return self._hy.tanh(self._term(x))
 
     def exp(self, x: Any) -> Any:
-        return self._hy.exp(x)
+        return self._hy.exp(self._term(x))
 
     def log(self, x: Any) -> Any:
-        return self._hy.log(x)
+        return self._hy.log(self._term(x))
 
     def sqrt(self, x: Any) -> Any:
-        return self._hy.sqrt(x)
+        return self._hy.sqrt(self._term(x))
 
     def pi(self) -> Any:
         return self._hy.pi
 
     def power(self, x: Any, exponent: Fraction) -> Any:
-        return x ** self._number(exponent)
+        return self._term(x) ** self._number(exponent)
 
 
 MPMATH = Mpmath()

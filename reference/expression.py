@@ -105,7 +105,15 @@ class Power:
             return m.power(base, self.exponent)
         if self.exponent.denominator == 2:
             base = m.sqrt(base)
-        return base**count if self.exponent > 0 else 1 / base**count
+        raised = _raised(base, count)
+        return raised if self.exponent > 0 else 1 / raised
+
+
+def _raised(base: Any, count: int) -> Any:
+    """base ** count by products, which balls around zero take too."""
+    half = base if count < 2 else _raised(base, count // 2)
+    square = base if count < 2 else half * half
+    return square * base if count > 1 and count % 2 else square
 
 
 @dataclass(frozen=True)

@@ -71,6 +71,12 @@ def test_pi_is_pi():
     assert hy.cfunc([Heyoka().pi() * hy.expression("x")], [hy.expression("x")])(np.array([1.0]))[0] == np.pi
 
 
+def test_a_function_of_a_constant_is_a_constant_to_heyoka_too():
+    x = hy.expression("x")
+    compiled = hy.cfunc([x * Heyoka().sqrt(2.0) * Heyoka().power(4.0, Fraction(1, 2))], [x])
+    assert compiled(np.array([0.5]))[0] == pytest.approx(2**0.5)
+
+
 def test_a_function_of_a_constant_is_a_constant_among_duals():
     m = DualArithmetic(NUMPY, 1)
     assert m.sin(0.5) == np.sin(0.5)

@@ -1,0 +1,234 @@
+"""Descent on a curve as a problem: exact inputs, proven answers."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cached_property
+from typing import TYPE_CHECKING, Any, ClassVar
+
+from flint import arb, ctx
+
+from reference.arithmetic import NUMPY
+from reference.balls import BALL
+from reference.dual import DualArithmetic
+from reference.exact import as_number, exact
+from reference.limbs import ziv
+from reference.names import short
+from reference.problem import ClosedForm, Problem, Row
+from reference.problems.descent.admission import admitted
+from reference.problems.descent.curves import Curve, CycloidByArc, lagrange, spelled_curve
+from reference.problems.descent.equations import energy
+from reference.problems.descent.forms import BallDescent, CycloidDescent, QuadratureDescent
+from reference.problems.descent.quantities import ROWS
+from reference.problems.descent.rational import Rational
+from reference.problems.descent.taylor import TaylorDescent
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
+
+    from reference.certify import Certified
+    from reference.problems.descent.slide import Slide
+
+__all__ = ["Descent"]
+
+DECISION_BITS = 128
+END_TOLERANCE = Fraction(1, 10**12)
+"""How far from the end of the curve, by its size, the end point may be that was asked for."""
+
+
+@dataclass(frozen=True, repr=False)
+class Descent(Problem):
+    """A body released at rest that slides down a curve without friction, dt = ds/sqrt(2 g drop).
+
+    Args:
+        curve: a name of the race (line, parabola, cubic, quartic, circular_arc, quarter_ellipse, cycloid), which goes
+            from (pi, 2) down to (0, 0); or the height y in m, upwards, as a formula of the horizontal x such as
+            "2*(x/pi)**4"; or "x = ...; y = ..." as formulas of a parameter p.
+        g: acceleration of gravity in m/s^2, positive.
+        start, end: of a formula, where x or p begins and ends: numbers, or constants such as "pi/2".
+        released: the fraction of the way at which the body is released, from 0 to below 1.
+        to: the end point (x, y) that the curve is meant to reach, which is checked.
+
+    Each number is exact: a float at its binary64 value, a string or Fraction as it spells.  The place of the body is
+    the fraction w of the way: of x or p, on the cycloid of the race of its arc.
+
+    Raises:
+        ValueError: an input is outside its range, the formula is none, or no body at rest slides down the curve.
+        TypeError: an input is of another type.
+    """
+
+    curve: Curve
+    g: Fraction
+    released: Fraction
+
+    name: ClassVar[str] = "descent"
+    rows: ClassVar[tuple[Row, ...]] = ROWS
+    state_names: ClassVar[tuple[str, ...]] = ("place", "place_rate")
+    max_bits: ClassVar[int] = 2048
+
+    def __init__(
+        self, curve: Any, g: Any = 9.81, start: Any = None, end: Any = None, released: Any = 0, to: Any = None
+    ) -> None:
+        known = curve if isinstance(curve, Curve) else spelled_curve(curve, start, end)
+        for name, value in (("curve", known), ("g", exact(g, "g")), ("released", exact(released, "released"))):
+            object.__setattr__(self, name, value)
+        if self.g <= 0:
+            raise ValueError(f"g is {as_number(self.g)}; a positive number is accepted.")
+        if not 0 <= self.released < 1:
+            raise ValueError(
+                f"released is {as_number(self.released)}; a fraction of the way from 0 to below 1 is accepted."
+            )
+        _ = self.slide
+        if to is not None:
+            self._check_end(to)
+
+    def __repr__(self) -> str:
+        released = f", released={as_number(self.released)!r}" if self.released else ""
+        return f"Descent({self.curve.arguments}, g={as_number(self.g)!r}{released})"
+
+    @property
+    def slide(self) -> Slide:
+        """The curve from the place of release on, admitted."""
+        return admitted(self.curve, self.released)
+
+    def _check_end(self, to: Any) -> None:
+        if not isinstance(to, (tuple, list)) or len(to) != 2:
+            raise ValueError(f"to is {short(repr(to))}; a point (x, y) is accepted.")
+        asked = [BALL.number(exact(value, f"to[{i}]")) for i, value in enumerate(to)]
+        with ctx.workprec(DECISION_BITS):
+            one, start = BALL.number(Fraction(1)), BALL.number(self.released)
+            curve = self.curve
+            reached = [curve.horizontal(BALL, one), curve.height(BALL, one)]
+            size = abs(curve.height(BALL, start) - reached[1]) + abs(curve.horizontal(BALL, start) - reached[0])
+            near = [abs(a - b) < size * BALL.number(END_TOLERANCE) for a, b in zip(asked, reached, strict=True)]
+        if not all(near):
+            shown = ", ".join(f"{float(value.mid()):.6g}" for value in reached)
+            raise ValueError(f"to is {tuple(to)!r}, but curve '{short(curve.name)}' ends at ({shown}).")
+
+    @property
+    def parameters(self) -> dict[str, Fraction]:
+        return {"g": self.g}
+
+    @property
+    def start(self) -> tuple[Fraction, ...]:
+        """At rest.
+
+        Raises:
+            ValueError: at a cusp a body at rest has no equation of motion in the curve's parameter.
+        """
+        if self.slide.order == 2:
+            raise ValueError(f"{self!r} starts at a cusp, where its equation of motion has no start.")
+        return self.released, Fraction(0)
+
+    def derivative(self, m: Any, y: Sequence[Any], p: dict[str, Any]) -> tuple[Any, ...]:
+        """(w', w'') at the fraction w of the way, in 1/s and 1/s^2."""
+        return lagrange(self.curve, m, y[0], y[1], p["g"])
+
+    def invariant(self, m: Any, y: Sequence[Any], p: dict[str, Any]) -> Any:
+        """The energy for a unit of mass above that of rest at the end of the curve, in m^2/s^2."""
+        w, rate = y
+        height, _, arc_square = self.curve.profile(m, w)
+        return energy(rate, height - self.curve.height(m, m.number(Fraction(1))), arc_square, p["g"])
+
+    def rate(self) -> float:
+        """The largest |d(w'')/d(w')| + sqrt|d(w'')/dw| at places along the motion."""
+        duals: Any = DualArithmetic(NUMPY, 2)  # type: ignore[arg-type] # formulas ask for no elliptic functions
+        until = Fraction(float(self.descent_time())) * (1 - Fraction(1, 16))
+        found = [0.0]
+        for w, by_time in self.state([until * Fraction(k, 16) for k in range(self.slide.order - 1, 17)]):
+            state = duals.variable(w, 0), duals.variable(by_time, 1)
+            _, bend = self.derivative(duals, state, {"g": float(self.g)})
+            by_place, by_rate = (float(slope) for slope in bend.slopes)
+            found.append(abs(by_rate) + abs(by_place) ** 0.5)
+        return max(found)
+
+    def neighbour(self, rounding: Callable[[Fraction], Fraction], epsilon: Fraction) -> Descent:
+        """Released further on, by 2^-20 of the way that is left or by 16 roundings."""
+        shift = max(Fraction(1, 1 << 20), 16 * epsilon)
+        return Descent(self.curve, self.g, released=rounding(self.released + (1 - self.released) * shift))
+
+    def closed_form(self, m: Any) -> ClosedForm:
+        """The motion in balls."""
+        del m
+        form = CycloidDescent if isinstance(self.curve, CycloidByArc) else BallDescent
+        return form(self.slide, self.g)
+
+    def quadrature_form(self) -> ClosedForm:
+        """The motion by Chebyshev series in mpmath."""
+        return QuadratureDescent(self.slide, self.g)
+
+    def taylor_form(self, bits: int) -> TaylorDescent:
+        """The flow of the equation of motion."""
+        return TaylorDescent(self, bits)
+
+    def within_taylor(self, row: str, arguments: Sequence[Any]) -> bool:
+        """Not from a cusp, where the equation of motion has no start."""
+        del row, arguments
+        return self.slide.order == 1
+
+    def by_route(self, route: str, row: str, arguments: Sequence[Any], digits: int) -> Any:
+        """The values of a row by "taylor" or "quadrature"; see Problem."""
+        for argument in arguments:
+            self._check(row, argument)
+        return super().by_route(route, row, arguments, digits)
+
+    def exact_row(self, row: str, argument: Any) -> tuple[Fraction | None, ...] | None:
+        """What is rational, exactly.
+
+        Raises:
+            ValueError: the argument is outside of the descent.
+        """
+        self._check(row, argument)
+        return self._rational.row(row, argument)
+
+    @cached_property
+    def _rational(self) -> Rational:
+        return Rational(self.slide, self.g)
+
+    def _check(self, row: str, argument: Any) -> None:
+        over = self.row(row).over
+        if over == "fraction" and not self.released <= argument <= 1:
+            low = as_number(self.released)
+            raise ValueError(f"fraction is {as_number(argument)}; a fraction of the way from {low} to 1 is accepted.")
+        if over == "time" and not (argument == 0 or (argument > 0 and self._in_time(argument))):
+            seconds = f"{float(self.descent_time()):.6g}"
+            raise ValueError(
+                f"t is {as_number(argument)}; a time from 0 to the descent time of {self!r}, {seconds} s, is accepted."
+            )
+
+    def _in_time(self, t: Fraction) -> bool:
+        """Whether t is no later than the descent time."""
+        for end in self._rational.row("descent_time", None) or ():
+            return end is not None and t <= end
+        if t < self._surely:
+            return True
+
+        def left(_rows: Sequence[int]) -> list[list[arb]]:
+            form: Any = self.closed_form(BALL)
+            return [[form.descent_time - BALL.number(t)]]
+
+        def certain(ball: arb) -> arb | None:
+            return ball if ball.is_finite() and not ball.contains(0) else None
+
+        what = f"whether t = {as_number(t)} is before the end of {self!r}"
+        return bool(ziv(left, certain, 1, DECISION_BITS, what, self.max_bits)[0][0] > 0)
+
+    @cached_property
+    def _surely(self) -> Fraction:
+        """A time that is surely before the end, and almost there."""
+        return Fraction(float(self.descent_time())) * (1 - Fraction(1, 2**40))
+
+    def working_bits(self, arguments: Sequence[Any]) -> int:
+        """More for a time or a way that is small: its digits are lost in those of the whole."""
+        ways = [abs(a - self.released) for a in arguments if isinstance(a, Fraction) and a != self.released]
+        least = min(ways, default=Fraction(1))
+        return 24 + 2 * max(0, least.denominator.bit_length() - least.numerator.bit_length())
+
+    def descent_time(self) -> Certified:
+        """The time from the release to the end of the curve, in s."""
+        return self.certified("descent_time")
+
+    def arc_length(self) -> Certified:
+        """The length of the way, in m."""
+        return self.certified("arc_length")

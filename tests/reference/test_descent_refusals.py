@@ -1,0 +1,123 @@
+"""Curves that a body at rest does not slide down, and inputs that are none: one clear sentence for each."""
+
+from __future__ import annotations
+
+import math
+from fractions import Fraction
+
+import pytest
+
+from reference.problems.descent import Descent
+
+VERTICAL = "a curve that is vertical there is accepted by a parameter, 'x = ...; y = ...'."
+REFUSED = {
+    "a horizontal start": ("1 - x**2", 0, 1, "starts horizontally, where a body at rest stays"),
+    "a start that rises": ("sin(x)", 1, 5.5, "rises from its start"),
+    "an end as high as the start": ("x**2", -1, 1, "ends no lower than it starts"),
+    "an end above the start": ("x", 0, 1, "ends no lower than it starts"),
+    "a point": ("x = 1; y = 2", 0, 1, "ends no lower than it starts"),
+    "a hill above the start": ("cos(x)", 0.1, 7, "rises above its start at x = 6.1914"),
+    "a touch of the start's level": ("-x*(x - 1)**2", 0, 2, "comes up to the level of its start near x = 1,"),
+    "a hill that no sample meets": (
+        "0.01*exp(-1e10*(x - 1/pi)**2) - x/1000",
+        0,
+        1,
+        "near x = 0.318",
+    ),
+    "a vertical start": ("1 - sqrt(x)", 0, 1, f"with a finite slope at its start; {VERTICAL}"),
+    "a vertical end": ("sqrt(x)", 1, 0, f"near x = 3.18323e-12; {VERTICAL}"),
+    "a root that ends on the way": ("sqrt(1 - x) - x", 0, 2, f"near x = 1; {VERTICAL}"),
+    "a pole": ("-1/(x - 3/2)**2 - 10*x", 1, 2, "is bent too sharply or has a pole near x = 1.4999"),
+    "a pole between samples": ("-1e-9/(x - 1/pi)**2 - x", 0, 1, "is bent too sharply or has a pole near x = 0.3183"),
+    "a logarithm to its end": ("log(x)", 1, 0, "is not real and analytic with a finite slope near x ="),
+    "an arc sine from its end": ("asin(x)", 1, 0, "with a finite slope at its start"),
+    "a cusp of another kind": ("x = p**2; y = 1 - p**3", 0, 1, "otherwise than in a cusp as the cycloid's"),
+    "a cusp that is no cusp": ("x = p**3; y = 1 - p**3", 0, 1, "otherwise than in a cusp as the cycloid's"),
+    "a cusp that is not known to be exact": (
+        "x = 1 - cos(p - exp(1)); y = cos(p - exp(1))",
+        "exp(1)",
+        4,
+        "otherwise than in a cusp as the cycloid's",
+    ),
+    "a cusp on the way": ("x = (p - 1/2)**2; y = -(p - 1/2)**3", 0, 1, "(x' = y' = 0) near p = 0.5"),
+    "a cusp at the end": ("x = cos(p)**3; y = sin(p)**3", "1.5", 0, "(x' = y' = 0) near p ="),
+    "no way at all": ("x", 1, "2/2", "has the same start and end"),
+    "an end that is not real": ("x", "sqrt(-1)", 0, "does not start at a finite real number"),
+    "an end that is not finite": ("x", 0, "log(0)", "does not end at a finite real number"),
+    "a comb": ("sin(1000*x)/2000 - x", 0, 1, "is bent too sharply or has a pole near x = "),
+}
+
+
+@pytest.mark.parametrize("name", REFUSED)
+def test_a_curve_that_no_body_at_rest_slides_down_is_refused_in_one_sentence(name):
+    formula, start, end, why = REFUSED[name]
+    with pytest.raises(ValueError, match=r"^curve '.*\.$") as refusal:
+        Descent(formula, start=start, end=end)
+    assert why in str(refusal.value)
+    assert str(refusal.value).count(". ") == 0
+
+
+INPUTS = {
+    "an unknown name": ({"curve": "quartik"}, ValueError, "perhaps quartic or quarter_ellipse; accepted are line,"),
+    "no text": ({"curve": 3}, TypeError, "curve is of type int"),
+    "no start": ({"curve": "x", "end": 0}, ValueError, "a formula; it needs the start of its x"),
+    "no end": ({"curve": "x = p; y = p", "start": 1}, ValueError, "a formula; it needs the end of its p"),
+    "ends of a known curve": ({"curve": "line", "end": 0}, ValueError, "whose ends are known"),
+    "a strange name": ({"curve": "z = p", "start": 1, "end": 0}, ValueError, "curve is 'z = p'; a height such as"),
+    "x twice": ({"curve": "x = p; y = p; x = p", "start": 1, "end": 0}, ValueError, "a height such as"),
+    "two signs": ({"curve": "y = x = 1", "start": 1, "end": 0}, ValueError, "a height such as"),
+    "no y": ({"curve": "x = p", "start": 1, "end": 0}, ValueError, "without a formula of y"),
+    "x of x": (
+        {"curve": "x = x; y = p", "start": 1, "end": 0},
+        ValueError,
+        "the name 'x' is unknown, perhaps exp; accepted are p",
+    ),
+    "p of a height": ({"curve": "2*p", "start": 1, "end": 0}, ValueError, "accepted are x, pi."),
+    "a variable end": ({"curve": "x", "start": "2*x", "end": 0}, ValueError, "start '2*x': the name 'x' is unknown"),
+    "no gravity": ({"curve": "line", "g": 0}, ValueError, "g is 0.0; a positive number"),
+    "no number": ({"curve": "line", "g": math.nan}, ValueError, "g is nan, which is not finite"),
+    "released at the end": ({"curve": "line", "released": 1}, ValueError, "released is 1.0; a fraction of the way"),
+    "released before": ({"curve": "line", "released": -0.5}, ValueError, "released is -0.5; a fraction of the way"),
+    "released on a level": (
+        {"curve": "-x - 2*sin(x)", "start": 0, "end": 6, "released": 0.5},
+        ValueError,
+        "rises from its start",
+    ),
+    "another end": ({"curve": "line", "to": (0, 1)}, ValueError, r"to is (0, 1), but curve 'line' ends at (0, 0)."),
+    "no end point": ({"curve": "line", "to": 3}, ValueError, "to is 3; a point (x, y) is accepted"),
+}
+
+
+@pytest.mark.parametrize("name", INPUTS)
+def test_an_input_that_is_none_is_refused_in_one_sentence(name):
+    given, error, why = INPUTS[name]
+    with pytest.raises(error, match=r"\.$") as refusal:
+        Descent(**given)
+    assert why in str(refusal.value)
+
+
+def test_the_end_asked_for_may_be_written_in_binary64():
+    assert Descent("2*x/pi - 2", start=0, end="-pi", to=(-math.pi, -4)) == Descent("2*x/pi - 2", start=0, end="-pi")
+    assert Descent("quartic", to=("0", Fraction(0)))
+
+
+@pytest.mark.parametrize("row", ["state", "motion"])
+def test_a_time_outside_of_the_descent_is_refused_with_the_descent_time(row):
+    problem = Descent("quartic")
+    for t in (-1, 1.0157, 2, "1e300"):
+        sentence = rf"^t is .*; a time from 0 to the descent time of {'Descent'}\('quartic', g=9\.81\), 1\.0156 s, is"
+        with pytest.raises(ValueError, match=sentence):
+            problem.along(row, [0.5, t])
+        with pytest.raises(ValueError, match=sentence):
+            problem.by_route("quadrature", row, [Fraction(t)], 50)
+    last = Fraction(problem.descent_time().digits(100)) - Fraction(1, 10**60)
+    assert problem.along("motion", last)[1] == pytest.approx(0, abs=1e-200)
+    with pytest.raises(ValueError, match="a time from 0 to the descent time"):
+        problem.state(last + Fraction(2, 10**60))
+
+
+def test_a_place_outside_of_the_way_is_refused():
+    with pytest.raises(ValueError, match=r"^fraction is 1\.5; a fraction of the way from 0\.0 to 1 is accepted\.$"):
+        Descent("line").along("passage", 1.5)
+    with pytest.raises(ValueError, match=r"a fraction of the way from 0\.5 to 1 is accepted\.$"):
+        Descent("line", released=0.5).along("passage", 0.25)
