@@ -120,7 +120,8 @@ def quantities(family: Family, inputs: Mapping[str, Any]) -> list[Certified]:
     """The family's quantities at the given inputs, each a proven number.
 
     Raises:
-        ValueError: an input is not acceptable, or two of them give a quantity of the same name.
+        ValueError: an input is not acceptable, nothing is a function of it, or two of them give a quantity of the same
+            name.
     """
     arguments = {asked.over: inputs[asked.name] for asked in family.inputs if asked.over and asked.name in inputs}
     arguments["once"] = None
@@ -134,6 +135,10 @@ def quantities(family: Family, inputs: Mapping[str, Any]) -> list[Certified]:
         for component in range(len(rows[name].quantities))
     ]
     _require_single(family, found)
+    answered = {rows[value.row].over for value in found}
+    for asked in family.inputs:
+        if asked.over in arguments and asked.over not in answered:
+            raise ValueError(f"--{asked.name} asks for nothing that {problem!r} has.")
     return found
 
 
