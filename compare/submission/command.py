@@ -10,12 +10,13 @@ from compare.submission.files import Rows
 from compare.submission.judge import CHUNK, Judge
 from compare.submission.record import Running, capped
 from compare.submission.show import csv_header, csv_rows, rendered
-from reference.at import FAMILIES, Family
+from reference.families import FAMILIES
 from reference.names import unknown
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping
 
+    from reference.at import Family
     from reference.problem import Problem
 
 __all__ = ["Submission", "families", "judged"]
@@ -59,8 +60,9 @@ def judged(asked: Submission, progress: Callable[[str], None] | None = None) -> 
         ValueError: it, or what was asked, is not as it must be; one sentence says what is accepted.
     """
     problem = _problem(asked)
-    columns = Columns(("t", *problem.state_names), asked.columns)
-    rows, judge = Rows(asked.file, columns, as_written=asked.exact), Judge(problem)
+    judge = Judge(problem)
+    columns = Columns((judge.time, *problem.state_names), asked.columns)
+    rows = Rows(asked.file, columns, as_written=asked.exact)
     running = Running(problem.state_names, keep=asked.rows)
     done = 0
     for chunk in rows.chunks(CHUNK):
@@ -72,7 +74,7 @@ def judged(asked: Submission, progress: Callable[[str], None] | None = None) -> 
         if progress is not None:
             progress(f"{done} rows")
     if asked.form != "csv":
-        yield rendered(running.score(repr(problem), judge.held, rows.times, judge.notes(running)), asked.form)
+        yield rendered(judge.score(running, rows.times), asked.form)
 
 
 def _problem(asked: Submission) -> Problem:

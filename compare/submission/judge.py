@@ -18,8 +18,8 @@ from reference.routes import enclosure
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
-    from compare.submission.orbit import Orbits, Place
-    from compare.submission.record import Running
+    from compare.submission.place import Orbits, Place
+    from compare.submission.record import Running, Score
     from compare.submission.written import Written
 
 __all__ = ["CHUNK", "Judge"]
@@ -37,6 +37,7 @@ class Judge:
     """A problem's truth, held against rows in the order of their times.
 
     Attributes:
+        time: what the state is a function of: "t", or the name of another time, such as "tau".
         held: the digits that the input can hold: the most that any of its numbers so far has.
 
     Raises:
@@ -44,13 +45,14 @@ class Judge:
     """
 
     def __init__(self, problem: Problem) -> None:
-        if not isinstance(problem, Problem) or not _has_state(problem):
+        if not isinstance(problem, Problem) or not _time(problem):
             raise TypeError(
                 f"problem is {problem!r}; a problem with a state in time, such as Pendulum(1.0), is accepted."
             )
         self.problem = problem
+        self.time = _time(problem)
         self.held = 0.0
-        self._units = [quantity.units for quantity in problem.row("state").quantities]
+        self._units = tuple(quantity.units for quantity in problem.row("state").quantities)
         self._rows = 0
         self._last: Written | None = None
 
@@ -84,14 +86,18 @@ class Judge:
         self._rows += len(found)
         return found
 
-    def notes(self, running: Running) -> tuple[str, ...]:
+    def score(self, running: Running, times: str) -> Score:
+        """The summary of all rows so far, which ``running`` took in; ``times`` says how times were read."""
+        return running.score(repr(self.problem), self._units, self.held, times, self._notes(running))
+
+    def _notes(self, running: Running) -> tuple[str, ...]:
         """What could not be judged, in sentences."""
         lacking, lost = remark(self.problem), running.lost
         if lost is None or (lacking and self._phaseless):
             return (lacking,) if lacking else ()
         sentence = (
-            f"Row {lost.number}, t = {lost.t}, is the first whose state is on no orbit of the exact motion's kind: "
-            "it has no phase."
+            f"Row {lost.number}, {self.time} = {lost.t}, is the first whose state is on no orbit of the exact motion's "
+            "kind: it has no phase."
         )
         return (lacking, sentence) if lacking else (sentence,)
 
@@ -104,8 +110,8 @@ class Judge:
     def _refuse_disorder(self, times: Sequence[Written], places: Sequence[str]) -> None:
         for t, place in zip(times, places, strict=True):
             if self._last is not None and t.value <= self._last.value:
-                fault = "is repeated" if t.value == self._last.value else f"comes after t = {self._last.text}"
-                raise ValueError(f"t = {t.text} in {place} {fault}; increasing times are accepted.")
+                fault = "is repeated" if t.value == self._last.value else f"comes after {self.time} = {self._last.text}"
+                raise ValueError(f"{self.time} = {t.text} in {place} {fault}; increasing times are accepted.")
             self._last = t
 
     def _refuse_degrees(self, states: Sequence[Sequence[Written]], truths: Sequence[Sequence[arb]]) -> None:
@@ -122,8 +128,10 @@ class Judge:
                 )
 
 
-def _has_state(problem: Problem) -> bool:
-    return any(row.name == "state" and row.over == "time" for row in problem.rows)
+def _time(problem: Problem) -> str:
+    """What the problem's state is a function of; "" where it has no state."""
+    over = next((row.over for row in problem.rows if row.name == "state"), "")
+    return {"time": "t", "once": "", "index": ""}.get(over, over)
 
 
 class _Bench:

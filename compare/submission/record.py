@@ -25,7 +25,7 @@ class Point:
         errors: number - truth, in the order of the state.
         first_wrong: for each number the place of its first wrong significant digit, from 1; None where all are right.
         phase_error: rad, 2 pi per period, positive where the state is ahead; NaN where it has no phase.
-        amplitude_error: rad; NaN where the state has no amplitude.
+        amplitude_error: in the units of the first number of the state; NaN where it has no amplitude.
         energy_error: (E - E0)/(E0 - Emin), or the invariant itself where it starts at zero.
     """
 
@@ -47,13 +47,13 @@ class Score:
 
     Attributes:
         problem: the problem, as Python would make it.
-        names: the names of the state's numbers.
+        names: the names of the state's numbers; ``units`` their units.
         rows: how many rows there were.
         worst_digits: the fewest correct digits of a row; ``worst_row`` is the number of the first row that has so few.
         digits_held: the digits that the input could hold, which no row's correct digits exceed.
         max_error: the largest error of a row; ``max_errors`` the largest of each number of the state.
         max_phase_error: rad; NaN where a row has no phase.
-        max_amplitude_error: rad; NaN where a row has no amplitude.
+        max_amplitude_error: in the units of the first number of the state; NaN where a row has no amplitude.
         max_energy_error: relative to the energy above rest; NaN where the problem has no invariant.
         times: how times were read: "as written", or "binary64" where each is the double that it spells.
         notes: sentences on what could not be judged.
@@ -62,6 +62,7 @@ class Score:
 
     problem: str
     names: tuple[str, ...]
+    units: tuple[str, ...]
     rows: int
     worst_digits: float
     worst_row: int
@@ -115,7 +116,7 @@ class Running:
         """The first row without a phase."""
         return self._lost
 
-    def score(self, problem: str, held: float, times: str, notes: tuple[str, ...]) -> Score:
+    def score(self, problem: str, units: tuple[str, ...], held: float, times: str, notes: tuple[str, ...]) -> Score:
         """The summary, with every row's digits at most the ``held`` that the input can hold.
 
         Raises:
@@ -128,6 +129,7 @@ class Running:
         return Score(
             problem=problem,
             names=self._names,
+            units=units,
             rows=self._last.number,
             worst_digits=min(self._worst.digits, held),
             worst_row=self._worst.number,

@@ -44,7 +44,7 @@ def score(problem: Problem, t: Any, y: Any) -> Score:
     running = Running(problem.state_names, keep=None)
     for first in range(0, len(times), CHUNK):
         running.add(judge.points(times[first : first + CHUNK], states[first : first + CHUNK]))
-    return running.score(repr(problem), judge.held, "as written", judge.notes(running))
+    return judge.score(running, "as written")
 
 
 def _state(row: Any, number: int, names: Sequence[str]) -> tuple[Written, ...]:

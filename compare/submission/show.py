@@ -94,7 +94,7 @@ def summary_line(score: Score) -> str:
     ]
     for what, value, units in (
         ("phase", score.max_phase_error, " rad"),
-        ("amplitude", score.max_amplitude_error, " rad"),
+        ("amplitude", score.max_amplitude_error, f" {score.units[0]}"),
         ("energy", score.max_energy_error, ""),
     ):
         parts.append(f"{what} {_size(value)}{units}" if not math.isnan(value) else f"{what} -")
@@ -106,6 +106,7 @@ def json_text(score: Score) -> str:
     names = score.names
     answer = {
         "problem": score.problem,
+        "units": dict(zip(names, score.units, strict=True)),
         "rows": score.rows,
         "worst_digits": score.worst_digits,
         "worst_row": score.worst_row,

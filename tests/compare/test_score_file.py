@@ -19,6 +19,8 @@ from compare.submission import text as text_rows
 from compare.submission.columns import Columns
 from compare.submission.files import Rows
 from reference import Pendulum
+from reference.problems.cycloid import Cycloid, Tautochrone
+from reference.problems.polar import PolarBrachistochrone
 
 ROOT = Path(__file__).parents[2]
 P = Pendulum(1.0)
@@ -141,6 +143,32 @@ def test_times_of_a_double_precision_table_are_doubles_unless_they_are_to_be_exa
     doubles, written = summary(path, capsys), summary(path, capsys, "--exact")
     assert (doubles["times"], written["times"]) == ("binary64", "as written")
     assert doubles["max_error"] < 4.5e-16 < written["max_error"] < 1e-14
+
+
+@pytest.mark.parametrize(
+    ("problem", "header", "options"),
+    [
+        (
+            Tautochrone(1.0, 2.0),
+            "t,angle,angular_velocity",
+            ["--problem", "tautochrone", "--angle", "1", "--radius", "2"],
+        ),
+        (Cycloid(2.0, 1.0), "t,arc,arc_rate", ["--problem", "cycloid", "--end", "2,1"]),
+        (PolarBrachistochrone(0.5), "tau,z,z_rate,phi", ["--problem", "polar", "--z0", "0.5"]),
+    ],
+)
+def test_any_family_that_has_a_state_is_served_with_its_own_options(problem, header, options, tmp_path, capsys):
+    times = np.arange(0, 8) / 8
+    y = problem.state(times)
+    y[5, 0] += 1e-7
+    rows = [",".join(map(repr, [t, *state])) for t, state in zip(times.tolist(), y.tolist(), strict=True)]
+    (tmp_path / "a.csv").write_text("\n".join([header, *rows]))
+    assert main(["score", str(tmp_path / "a.csv"), *options, "--format", "json"]) == 0
+    found = json.loads(capsys.readouterr().out)
+    assert (found["rows"], found["worst_row"]) == (8, 6)
+    assert found["max_error"] == pytest.approx(1e-7, rel=1e-6)
+    assert main(["score", str(tmp_path / "a.csv"), *options, "--theta0", "1"]) == 2
+    assert "option '--theta0' is unknown" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize("form", ["text", "markdown", "latex"])

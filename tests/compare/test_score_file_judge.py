@@ -15,6 +15,11 @@ import compare
 from compare.submission.record import Running
 from compare.submission.show import marked
 from reference import Pendulum
+from reference.problem import SeparableProblem
+from reference.problems.cycloid import Cycloid, CycloidalPendulum, Tautochrone
+from reference.problems.descent import Descent
+from reference.problems.pendulum.linear import LinearPendulum
+from reference.problems.polar import PolarBrachistochrone
 
 P = Pendulum(1.0)
 TIMES = [Fraction(j, 4) for j in range(41)]
@@ -104,6 +109,30 @@ def test_numbers_of_a_later_time_are_ahead_in_phase_alone(start, size):
     else:
         assert math.isnan(found.max_amplitude_error)
         assert found.notes == ("A rotation has no amplitude.",)
+
+
+@pytest.mark.parametrize(
+    "problem", [Tautochrone(1.0), Cycloid(2, 1), CycloidalPendulum(-1.0), LinearPendulum(1.0, omega0=0.3)]
+)
+def test_harmonic_motions_have_phase_and_amplitude_too(problem):
+    shift = Q(1, 10**20)
+    times = [Q(j, 8) for j in range(1, 20)]
+    found = compare.score(problem, times, [exact_state(problem, t + shift) for t in times])
+    frequency = problem.rate() if isinstance(problem, SeparableProblem) else math.sqrt(9.81) / 2
+    phases = [point.phase_error for point in found.points]
+    assert phases == pytest.approx([1e-20 * frequency] * len(times), rel=1e-9, abs=0)
+    assert found.max_amplitude_error < 1e-55
+
+
+@pytest.mark.parametrize("problem", [Descent("parabola"), PolarBrachistochrone(0.5)])
+def test_every_family_with_a_state_is_judged(problem):
+    t = np.arange(0, 9) / 16
+    y = problem.state(t)
+    y[3] *= 1 + 1e-9
+    found = compare.score(problem, t, y)
+    assert (found.worst_row, found.names) == (4, problem.state_names)
+    assert found.worst_digits == pytest.approx(9, abs=1e-6)
+    assert found.notes == (f"Phase and amplitude are not defined for the problem {problem.name}.",)
 
 
 @pytest.mark.parametrize("size", ["1e-2", "-1e-15", "1e-40"])
@@ -228,7 +257,7 @@ def test_of_many_rows_an_even_choice_is_kept_with_the_worst_and_the_last():
     running = Running(("theta", "omega"), keep=16)
     for begin in range(0, 300, 7):
         running.add(points[begin : begin + 7])
-    found = running.score("p", 16.0, "as written", ())
+    found = running.score("p", ("rad", "rad s-1"), 16.0, "as written", ())
     numbers = [point.number for point in found.points]
     assert (found.rows, found.worst_row) == (300, 201)
     assert {1, 201, 300} <= set(numbers)
