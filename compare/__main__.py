@@ -47,6 +47,8 @@ def _command(words: Sequence[str] | None = None) -> int:
         _print(_listing(request.form))
     elif request.command == "show":
         _print(_method(request.options["method"], request.form))
+    elif request.command == "report":
+        _print(_report(request))
     elif request.command == "solvers":
         _print(_shown(request, _solver_study, "compare.solvers"))
     else:
@@ -62,7 +64,7 @@ def _shown(request: Request, run_study: Callable[..., Any], home: str) -> str:
     out = request.out
     if out is None and request.plots:
         out = DEFAULT_FOLDER.format(problem=request.command)
-    width = min(max(shutil.get_terminal_size((100, 24)).columns, 80), 120)
+    width = _width()
     with contextlib.ExitStack() as stack:
         results = None
         if out is not None:
@@ -122,6 +124,21 @@ def _solver_study(request: Request, progress: Callable[[str], None] | None) -> S
     return solvers.study(**request.options, progress=progress)
 
 
+def _report(request: Request) -> str:
+    """Write a report, or go on with one that was interrupted, and return its tables."""
+    from compare import rendering
+    from compare.report import table
+    from compare.report.run import plan, run
+    from reference.terminal import progress_bar
+
+    wanted, out = plan(**request.options["plan"]), request.out or ""
+    with progress_bar("measuring", quiet=request.quiet) as progress:
+        found = run(wanted, out, jobs=request.options["jobs"], executor=request.options["executor"], progress=progress)
+    if not request.quiet:
+        print(f"wrote report.md and what goes with it into {out}", file=sys.stderr)
+    return rendering.render(found, table.TABLES, request.form, _width())
+
+
 def _listing(form: str) -> str:
     from compare import listing
     from compare.methods import METHODS
@@ -135,6 +152,11 @@ def _method(name: str, form: str) -> str:
     from compare.methods import find
 
     return tableau_text.render(describe(find(name)), form)
+
+
+def _width() -> int:
+    """The width of the terminal, within what a table can use."""
+    return min(max(shutil.get_terminal_size((100, 24)).columns, 80), 120)
 
 
 @contextlib.contextmanager

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from compare import reading
 from compare.judge import options as judge
+from compare.report import options as report
 from compare.solvers import options as solvers
 from compare.submission import options as submission
 from compare.table import FORMATS
@@ -22,6 +23,7 @@ COMMANDS = {
     "pendulum": "score integrators on the pendulum: error against N, observed order, energy drift",
     "list": "list the methods: family, order, stages, source",
     "show": "show a method: its tableau or its flows, its proven order, its properties",
+    "report": "one page of work and precision: methods and solvers over problems and amplitudes",
     "solvers": "score other people's solvers: error against tolerance, evaluations and seconds, events",
     "score": "judge a file of numbers from any code against the proven truth",
     "check": "measure whether your integrator is what it claims to be",
@@ -41,6 +43,8 @@ _OPTIONS: dict[str, tuple[str | None, str]] = {
     "--plots": (None, "also draw PNG and SVG figures (into DIR, or ./horologium-pendulum)"),
     "--quiet": (None, "nothing on stderr but errors; the tables are printed as ever"),
 }
+_ROOMS: dict[str, Any] = {"solvers": solvers, "report": report, "check": judge}
+"""Commands whose options stand in a room of their own."""
 _ACCEPTED = {"pendulum": tuple(_OPTIONS), "list": ("--format",)}
 _LISTS = ("--theta0", "--methods", "--n")
 _SHOWN = tuple(form for form in FORMATS if form != "csv")
@@ -83,8 +87,8 @@ def parse(words: Sequence[str]) -> Request:
         raise ValueError(f"no command is given; {_alternatives(tuple(COMMANDS))} is accepted.")
     known = _parser(words).parse_args(words)
     read: dict[str, Callable[[argparse.Namespace], dict[str, Any]]]
-    read = {"pendulum": _study_options, "score": submission.options, "solvers": solvers.options, "show": _shown_method}
-    read["check"] = judge.options
+    read = {"pendulum": _study_options, "score": submission.options, "show": _shown_method}
+    read |= {command: room.options for command, room in _ROOMS.items()}
     return Request(
         command=known.command,
         options=read[known.command](known) if known.command in read else {},
@@ -103,10 +107,8 @@ def _parser(words: Sequence[str] = ("score",)) -> Parser:
         one = commands.add_parser(command, help=text, description=text, epilog=_EPILOG)
         if command == "score":
             submission.add_options(one, with_families=words[0] == command)
-        if command == "solvers":
-            solvers.add_options(one)
-        if command == "check":
-            judge.add_options(one)
+        if command in _ROOMS:
+            _ROOMS[command].add_options(one)
         if command == "show":
             one.add_argument("method", metavar="NAME", help="a method by its name or an alias; see 'list'")
             one.add_argument(

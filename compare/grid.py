@@ -4,14 +4,16 @@ from __future__ import annotations
 
 import itertools
 import re
+import textwrap
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
-__all__ = ["Column", "Grid", "Section", "latex", "markdown", "markdown_text", "slug", "text", "text_width"]
+__all__ = ["Column", "Grid", "Section", "folded", "latex", "markdown", "markdown_text", "slug", "text", "text_width"]
 
+_NARROWEST = 30
 _SCIENTIFIC = re.compile(r"(-?\d(?:\.\d+)?)e([+-]\d+)")
 _LATEX_SPECIAL = {character: rf"\{character}" for character in "_%&#${}"} | {
     "\\": r"\textbackslash{}",
@@ -61,6 +63,18 @@ class Section:
 def slug(words: str) -> str:
     """The words as part of a section's name: letters, digits and hyphens."""
     return re.sub(r"[^a-z0-9]+", "-", words)
+
+
+def folded(columns: Sequence[Column], rows: Sequence[tuple[str, ...]], width: int) -> Grid:
+    """The rows, the last column folded to what the others leave of the width."""
+    others = [max(len(column.label), *(len(row[i]) for row in rows)) + 2 for i, column in enumerate(columns[:-1])]
+    room = max(width - sum(others), _NARROWEST)
+    lines = []
+    for row in rows:
+        first, *rest = textwrap.wrap(row[-1], room) or [""]
+        lines.append((*row[:-1], first))
+        lines += [(*("" for _ in row[:-1]), line) for line in rest]
+    return Grid(tuple(columns), tuple(lines))
 
 
 def text(section: Section) -> str:

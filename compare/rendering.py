@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from compare.grid import Section
     from compare.machine import Columns
 
-__all__ = ["FORMATS", "Tables", "files", "render"]
+__all__ = ["FORMATS", "Tables", "files", "header", "render"]
 
 FORMATS = ("text", "markdown", "csv", "latex", "json")
 
@@ -55,10 +55,10 @@ def render(study: Any, tables: Tables, form: str = "text", width: int = 100) -> 
         raise ValueError(f"the format {form!r} is not one of {', '.join(FORMATS)}")
     parts = tables.sections(study, _PAGE_WIDTH.get(form, width))
     if form == "markdown":
-        bullets = "\n".join(f"- **{name}**: {grid.markdown_text(fact)}" for name, fact in _header(study))
+        bullets = "\n".join(f"- **{name}**: {grid.markdown_text(fact)}" for name, fact in header(study))
         return "\n".join([f"## {study.problem}\n\n{bullets}\n", *map(grid.markdown, parts)])
     if form == "latex":
-        facts = (f"{name}: {fact}" for name, fact in _header(study))
+        facts = (f"{name}: {fact}" for name, fact in header(study))
         comment = "\n".join(f"% {line}" for line in ("needs \\usepackage{booktabs}", *facts))
         return "\n".join([comment + "\n", *map(grid.latex, parts)])
     return "\n\n".join([_header_text(study, width) + "\n", *map(grid.text, parts)])
@@ -73,7 +73,7 @@ def files(study: Any, tables: Tables, form: str = "text", width: int = 100) -> d
     return {f"{stem}.{_SUFFIX[form]}": render(study, tables, form, width).encode()}
 
 
-def _header(study: Any) -> Iterator[tuple[str, str]]:
+def header(study: Any) -> Iterator[tuple[str, str]]:
     """What was computed, against what and by what: names and their facts."""
     values = (f"{name} = {_value(value)} {_UNITS.get(name, '')}".rstrip() for name, value in study.parameters.items())
     yield study.problem, ", ".join(values)
@@ -83,7 +83,7 @@ def _header(study: Any) -> Iterator[tuple[str, str]]:
 
 def _header_text(study: Any, width: int) -> str:
     """The header as two columns."""
-    facts = list(_header(study))
+    facts = list(header(study))
     indent = max(len(name) for name, _ in facts) + 2
     return "\n".join(
         textwrap.fill(fact, width, initial_indent=name.ljust(indent), subsequent_indent=" " * indent)

@@ -42,17 +42,17 @@ def score_solver(solver: Solver, questions: Sequence[Question]) -> list[SolverCe
 
 
 def _cell(solver: Solver, question: Question, found: Heard[Answer], seconds: float) -> SolverCell:
-    answer, count = found.value, question.positions or len(question.start)
+    answer = found.value
     errors = np.full((1, len(question.start)), np.nan) if answer is None else _errors(question, answer.states)
-    positions, velocities = errors[:, :count].max(axis=1), errors[:, count:]
+    first, others = errors[:, 0], errors[:, 1:]
     return SolverCell(
         solver=solver.name,
         rtol=question.rtol,
         used=math.nan if answer is None else answer.used,
         theta0=float(question.problem.start[0]),
-        max_error=float(positions.max()),
-        end_error=float(positions[-1]),
-        velocity_error=float(velocities.max()) if velocities.size else math.nan,
+        max_error=float(first.max()),
+        end_error=float(first[-1]),
+        velocity_error=float(others.max()) if others.size else math.nan,
         evaluations=None if answer is None else answer.evaluations,
         seconds=None if answer is None else seconds,
         failure=found.failure,

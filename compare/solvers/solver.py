@@ -16,7 +16,11 @@ if TYPE_CHECKING:
 
     from reference.problem import Problem
 
-__all__ = ["Answer", "Counted", "Question", "Solver", "SolverError", "StoppedError"]
+__all__ = ["CALLS", "Answer", "Counted", "Question", "Solver", "SolverError", "StoppedError"]
+
+
+CALLS = "calls of the right-hand side"
+"""What a solver's evaluations are, unless it counts something else."""
 
 
 class SolverError(RuntimeError):
@@ -149,7 +153,7 @@ class Solver:
     events: Callable[[Question], Sequence[float]] | None = None
     aliases: tuple[str, ...] = ()
     dial: str = "rtol"
-    counts: str = "calls of the right-hand side"
+    counts: str = CALLS
     first_only: bool = False
     accepts: str = "every problem"
     solves: Callable[[Question], bool] = lambda _: True

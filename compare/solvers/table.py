@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import math
-import textwrap
 from typing import TYPE_CHECKING
 
 from compare import grid
 from compare.grid import Column, Grid, Section
 from compare.rendering import Tables
+from compare.solvers.solver import CALLS
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
@@ -36,7 +36,6 @@ COLUMNS = {
     "events": ("solver", "rtol", "theta0", "expected", "matched", "spurious", "max_error", "first_only", "failure"),
 }
 OTHER = "^"
-NARROWEST = 30
 _NO_STATES = "- means that the solver failed or was stopped; what it said is in the last table"
 _OTHER_NOTE = f"{OTHER} means that the solver worked with another tolerance than the one asked for; see the last table"
 _EVENTS_NOTE = "n of m means that it found n of the m passages; +k that it found k more, where there are none"
@@ -61,7 +60,7 @@ def _who(study: SolverStudy, width: int) -> Iterator[Section]:
     if here:
         rows = [(entry.solver, entry.version or "", entry.call) for entry in here]
         columns = Column("solver", left=True), Column("version", left=True), Column("call", left=True)
-        yield Section("solvers", "Solvers, and how each is called", (_folded(columns, rows, width),))
+        yield Section("solvers", "Solvers, and how each is called", (grid.folded(columns, rows, width),))
     missing = {entry.package: entry.install for entry in study.solvers if entry.version is None}
     if missing:
         labels = Column("package", left=True), Column("what installs it", left=True)
@@ -81,9 +80,8 @@ def _cells(study: SolverStudy, cells: Sequence[SolverCell], at: str, width: int)
     title = f"Error against rtol, {at}: largest |theta - exact|, in rad"
     yield _table(f"error-vs-rtol-{grid.slug(at)}", title, cells, error, width, notes)
     counts = {entry.solver: entry.counts for entry in study.solvers}
-    usual = "calls of the right-hand side"
-    strange = [f"{name}: {counts[name]}" for name in dict.fromkeys(c.solver for c in cells) if counts[name] != usual]
-    title = f"Evaluations against rtol, {at}: {usual}"
+    strange = [f"{name}: {counts[name]}" for name in dict.fromkeys(c.solver for c in cells) if counts[name] != CALLS]
+    title = f"Evaluations against rtol, {at}: {CALLS}"
     yield _table(f"evaluations-{grid.slug(at)}", title, cells, lambda cell: _count(cell.evaluations), width, strange)
     title = f"Seconds against rtol, {at}"
     yield _table(f"seconds-{grid.slug(at)}", title, cells, lambda cell: _digits(cell.seconds), width)
@@ -132,7 +130,7 @@ def _said(study: SolverStudy, width: int) -> Iterator[Section]:
     asked = sorted({cell.rtol for cell in study.error_vs_rtol}, reverse=True)
     rows = [(who, _runs([asked.index(rtol) for rtol in at], asked), what) for (who, what), at in said.items()]
     columns = Column("solver", left=True), Column("rtol", left=True), Column("what it said", left=True)
-    yield Section("said", "What the solvers said", (_folded(columns, rows, width),))
+    yield Section("said", "What the solvers said", (grid.folded(columns, rows, width),))
 
 
 def _runs(places: Sequence[int], asked: Sequence[float]) -> str:
@@ -176,18 +174,6 @@ def _parts(tolerances: Sequence[float], count: int) -> list[Sequence[float]]:
     """The tolerances in consecutive parts of about one length."""
     size = -(-len(tolerances) // count)
     return [tolerances[i : i + size] for i in range(0, len(tolerances), size)]
-
-
-def _folded(columns: Sequence[Column], rows: Sequence[tuple[str, ...]], width: int) -> Grid:
-    """The rows, the last column folded to what the others leave of the width."""
-    others = [max(len(column.label), *(len(row[i]) for row in rows)) + 2 for i, column in enumerate(columns[:-1])]
-    room = max(width - sum(others), NARROWEST)
-    lines = []
-    for row in rows:
-        first, *rest = textwrap.wrap(row[-1], room) or [""]
-        lines.append((*row[:-1], first))
-        lines += [(*("" for _ in row[:-1]), line) for line in rest]
-    return Grid(tuple(columns), tuple(lines))
 
 
 def _brief(rtol: float) -> str:

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from compare.solvers.solver import Solver
     from reference.problem import Problem
 
-__all__ = ["DEFAULT_LIMIT", "DEFAULT_RTOL", "questions", "scored", "study"]
+__all__ = ["DEFAULT_LIMIT", "DEFAULT_RTOL", "facts", "questions", "scored", "study", "tolerances"]
 
 DEFAULT_RTOL = tuple(float(f"1e-{k}") for k in range(3, 14))
 DEFAULT_LIMIT = 200_000
@@ -115,13 +115,23 @@ def questions(problem: Problem, t_end: Any, rtol: Sequence[float], limit: int) -
     end = exact(t_end, "t_end")
     if not TINY <= end <= HUGE:
         raise ValueError(f"t_end is {as_number(end)}; a positive number within the range of doubles is accepted.")
-    tolerances = [exact(value, "rtol") for value in some(rtol, "rtol")]
-    for tolerance in tolerances:
+    times = np.linspace(0.0, float(end), SAMPLES + 1)
+    for tolerance in tolerances(rtol):
+        yield Question(problem, times, tolerance, positive(limit, "max_evaluations"), event_of(problem))
+
+
+def tolerances(rtol: Sequence[float]) -> list[float]:
+    """The tolerances, each once, from the loosest to the tightest.
+
+    Raises:
+        ValueError: one is not in (0, 1), or there is none.
+        TypeError: ``rtol`` is no sequence.
+    """
+    asked = {exact(value, "rtol") for value in some(rtol, "rtol")}
+    for tolerance in asked:
         if not TINY <= tolerance < 1:
             raise ValueError(f"rtol is {as_number(tolerance)}; a number with 0 < rtol < 1 is accepted.")
-    times = np.linspace(0.0, float(end), SAMPLES + 1)
-    for tolerance in sorted(set(tolerances), reverse=True):
-        yield Question(problem, times, float(tolerance), positive(limit, "max_evaluations"), event_of(problem))
+    return sorted(map(float, asked), reverse=True)
 
 
 def scored(solver: Solver, series: Sequence[Question]) -> tuple[list[SolverCell], list[EventCell]]:

@@ -1,0 +1,71 @@
+"""The options of ``python -m compare report``, without what takes time to import."""
+
+from __future__ import annotations
+
+import os
+from typing import TYPE_CHECKING, Any
+
+from compare import reading
+from compare.rendering import FORMATS
+from reference.terminal import one_of
+
+if TYPE_CHECKING:
+    import argparse
+
+__all__ = ["DEFAULT_FOLDER", "add_options", "options"]
+
+DEFAULT_FOLDER = "horologium-report"
+NONE = ("none",)
+"""What asks for no method, or for no solver."""
+
+
+def add_options(parser: argparse.ArgumentParser) -> None:
+    """Add them to a parser."""
+    several: dict[str, Any] = {"action": "append", "metavar": "A,B"}
+    parser.add_argument("--problems", **several, help="families of problems (default all); may repeat")
+    parser.add_argument("--amplitudes", **several, help="how far from rest they start (default: each family's own)")
+    parser.add_argument("--methods", **several, help="methods by name (default: a dozen), or none; may repeat")
+    parser.add_argument("--solvers", **several, help="solvers or packages by name (default all), or none; may repeat")
+    parser.add_argument("--n", **several, help="numbers of steps (default 128, 256, ... 131072); may repeat")
+    parser.add_argument("--rtol", **several, help="tolerances (default 1e-3, 1e-4, ... 1e-13); may repeat")
+    parser.add_argument("--t-end", metavar="T", help="the last time in s (default 10)")
+    parser.add_argument("--max-evaluations", metavar="N", help="granted to a solver for one answer (default 200000)")
+    parser.add_argument("--jobs", metavar="N", help="how many at a time (default: all processors)")
+    parser.add_argument("--executor", default="process", metavar="NAME", help="process, dask:ADDRESS or mpi")
+    parser.add_argument(
+        "--format",
+        type=one_of("format", FORMATS),
+        default="text",
+        metavar="FORM",
+        help=f"of what is printed: {', '.join(FORMATS)} (default text)",
+    )
+    parser.add_argument(
+        "--out",
+        default=DEFAULT_FOLDER,
+        metavar="DIR",
+        help=f"the folder of the page, its figures and its numbers (default ./{DEFAULT_FOLDER})",
+    )
+    parser.add_argument("--quiet", action="store_true", help="nothing on stderr but errors")
+
+
+def options(known: argparse.Namespace) -> dict[str, Any]:
+    """What was given: "plan", the arguments of ``compare.report.run.plan``, and those of ``run``."""
+    given: dict[str, Any] = {
+        name: reading.several(name, getattr(known, name), read)
+        for name, read in (
+            ("problems", reading.text),
+            ("amplitudes", reading.number),
+            ("methods", reading.text),
+            ("solvers", reading.text),
+            ("n", reading.whole),
+            ("rtol", reading.number),
+        )
+        if getattr(known, name) is not None
+    }
+    given |= {name: () for name in ("methods", "solvers") if given.get(name) == NONE}
+    if known.t_end is not None:
+        given["t_end"] = reading.number(known.t_end, "t-end")
+    if known.max_evaluations is not None:
+        given["max_evaluations"] = reading.whole(known.max_evaluations, "max-evaluations", "number of evaluations")
+    jobs = os.cpu_count() or 1 if known.jobs is None else reading.whole(known.jobs, "jobs", "number of processes")
+    return {"plan": given, "jobs": jobs, "executor": known.executor}

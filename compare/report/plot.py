@@ -1,0 +1,58 @@
+"""A report's figures: error against evaluations and against seconds, methods and solvers together."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+from compare.ink import inks, saved, style
+from compare.plot import draw_curves, wide_figure
+from compare.report.families import family
+from compare.report.table import cases
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
+
+    from matplotlib.figure import Figure
+
+    from compare.report.records import Report, WorkPoint
+
+__all__ = ["FIGURES", "figures", "files", "names"]
+
+FIGURES: dict[str, tuple[str, str, Callable[[WorkPoint], float]]] = {
+    "evaluations": ("Work and precision", "evaluations", lambda point: point.evaluations or 0),
+    "seconds": ("Time and precision", "seconds", lambda point: point.seconds or 0.0),
+}
+"""Each figure's title, the label of its axis, and a point's place along it."""
+
+
+def files(report: Report) -> dict[str, bytes]:
+    """Every figure of the report, as PNG and as SVG, by file name."""
+    with style():
+        return {
+            f"{name}.{suffix}": image for name, figure in figures(report) for suffix, image in saved(figure).items()
+        }
+
+
+def names(point: WorkPoint) -> dict[str, str]:
+    """The names of the figures of a point's problem, and their titles."""
+    stem = f"{point.family}-{family(point.family).symbol}-{point.amplitude!r}"
+    return {f"{stem}-{kind}": title for kind, (title, _, _) in FIGURES.items()}
+
+
+def figures(report: Report) -> Iterator[tuple[str, Figure]]:
+    """Every figure with its name, two a problem."""
+    ink = inks(list(dict.fromkeys(point.name for point in report.points)))
+    for case, points in cases(report):
+        for (name, title), (_, label, work) in zip(names(points[0]).items(), FIGURES.values(), strict=True):
+            curves: dict[str, list[WorkPoint]] = {}
+            for point in sorted(points, key=work):
+                if math.isfinite(point.max_error) and point.max_error > 0:
+                    curves.setdefault(point.name, []).append(point)
+            known = family(points[0].family)
+            figure, axes = wide_figure(
+                f"{title}, {case}", top=0.92, error=f"largest error of the first component  [{known.units}]"
+            )
+            draw_curves(axes, curves, ink, work)
+            axes.set_xlabel(label)
+            yield name, figure

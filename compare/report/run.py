@@ -1,0 +1,190 @@
+"""From what is asked to a report: every group once, on an executor, the finished ones kept until all are."""
+
+from __future__ import annotations
+
+import hashlib
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from compare.methods import DEFAULT, find
+from compare.output import folder
+from compare.report.families import FAMILIES, family
+from compare.report.kept import Kept
+from compare.report.records import Report, WorkPoint
+from compare.report.work import Task, work
+from compare.scores import SAMPLES
+from compare.scoring import some
+from compare.solvers.catalogue import SOLVERS, select
+from compare.solvers.solver import CALLS
+from compare.studies.solvers import DEFAULT_LIMIT, DEFAULT_RTOL, facts, questions, tolerances
+from reference import __version__
+from reference.certify import ROUTES
+from reference.compiler import hy
+from reference.exact import positive
+from reference.executors import opened, results
+from reference.partial import partial
+
+if TYPE_CHECKING:
+    import os
+    from collections.abc import Callable, Iterator, Sequence
+
+__all__ = ["DEFAULT_N", "Plan", "plan", "run"]
+
+DEFAULT_N = tuple(2**k for k in range(7, 18))
+
+
+@dataclass(frozen=True)
+class Plan:
+    """A report before it is run.
+
+    Attributes:
+        tasks: its groups.
+        missing: packages of solvers that were asked for and are not here, with what installs them.
+        parameters: what was asked for.
+    """
+
+    tasks: tuple[Task, ...]
+    missing: dict[str, str]
+    parameters: dict[str, Any]
+
+    @property
+    def identity(self) -> str:
+        """A name that two plans share only if they ask for the same, of the same version."""
+        text = "\n".join([__version__, hy.__version__, *(task.key for task in self.tasks)])
+        return hashlib.sha256(text.encode()).hexdigest()[:32]
+
+
+def plan(
+    problems: Sequence[str] | None = None,
+    amplitudes: Sequence[float] | None = None,
+    methods: Sequence[str] | None = None,
+    solvers: Sequence[str] | None = None,
+    n: Sequence[int] = DEFAULT_N,
+    rtol: Sequence[float] = DEFAULT_RTOL,
+    t_end: float = 10.0,
+    max_evaluations: int = DEFAULT_LIMIT,
+) -> Plan:
+    """Put together what a report covers; what is asked wrongly is found here, before anything is computed.
+
+    Args:
+        problems: families of problems; all if None.
+        amplitudes: how far from rest they start; those of each family if None.
+        methods: methods with a fixed step; ``compare.methods.DEFAULT`` if None, and () for none.
+        solvers: solvers or packages; all if None, and () for none.
+        n: numbers of steps for methods.
+        rtol: tolerances for solvers.
+        t_end: the last time in s.
+        max_evaluations: of the right-hand side that a solver is granted for one answer.
+
+    Raises:
+        ValueError: an argument is outside its range, or a name unknown.
+        TypeError: an argument is of the wrong kind.
+    """
+    families = FAMILIES if problems is None else tuple(family(name) for name in some(problems, "problems"))
+    marched = [m.name for m in (DEFAULT if methods is None else dict.fromkeys(map(find, _named(methods, "methods"))))]
+    asked = SOLVERS if solvers is None else select(_named(solvers, "solvers"))
+    counts = tuple(sorted({positive(count, "n") for count in some(n, "n")}))
+    groups = [
+        (one.name, amplitude)
+        for one in families
+        for amplitude in (one.amplitudes if amplitudes is None else some(amplitudes, "amplitudes"))
+    ]
+    for name, amplitude in groups:
+        next(questions(family(name).build(amplitude), t_end, rtol, max_evaluations))
+    here = [solver for solver in asked if solver.version is not None]
+    tasks = tuple(
+        Task(name, float(amplitude), who, kind, settings, float(t_end), max_evaluations)
+        for name, amplitude in groups
+        for kind, whose, settings in (
+            ("method", marched, counts),
+            ("solver", [solver.name for solver in here], tuple(tolerances(rtol))),
+        )
+        for who in whose
+    )
+    if not tasks:
+        raise ValueError("there is nothing to report on: no method and no solver that is installed is asked for.")
+    parameters = {
+        "problems": {one.name: [a for name, a in groups if name == one.name] for one in families},
+        "t_end": float(t_end),
+        "samples": SAMPLES,
+        "n": list(counts),
+        "rtol": tolerances(rtol),
+    }
+    return Plan(tasks, {s.package: s.install for s in asked if s.version is None}, parameters)
+
+
+def _named(names: Sequence[str], what: str) -> Sequence[str]:
+    return () if names == () else some(names, what)
+
+
+def run(
+    wanted: Plan,
+    out: str | os.PathLike[str],
+    *,
+    jobs: int = 1,
+    executor: str = "process",
+    progress: Callable[[int, int], None] | None = None,
+) -> Report:
+    """Run a plan and write its page and what goes with it into the folder ``out``.
+
+    Groups that an earlier, interrupted run has finished are not run again.  ``progress(done, all)`` is called after
+    each group.
+
+    Raises:
+        BusyError, WorkerError: another run writes the same report; a worker process died.
+        OSError: the folder, or what is kept beside it, cannot be written.
+        ValueError, ImportError: the executor is unknown, or its package is not installed.
+    """
+    target = Path(out).resolve()
+    target.parent.mkdir(parents=True, exist_ok=True)
+    with folder(out) as written, partial(target, wanted.identity) as unfinished:
+        kept = Kept(unfinished.folder)
+        found = dict(_results(wanted, kept, jobs, executor, progress or (lambda _done, _all: None)))
+        report = _report(wanted, found, f"{jobs} at a time on the executor '{executor}'")
+        from compare.report import page  # which takes a second to import
+
+        written.write(page.files(report))
+    return report
+
+
+def _report(wanted: Plan, found: dict[Task, tuple[WorkPoint, ...]], where: str) -> Report:
+    return Report(
+        problem="work-precision",
+        parameters=wanted.parameters,
+        reference={
+            "version": __version__,
+            "routes": ["enclosure", *ROUTES],
+            "truth": "the state at exactly n h, and at exactly the times that a solver is asked for, proven",
+        },
+        engine={
+            **facts(wanted.tasks[0].limit),
+            "methods": f"marched by code compiled by heyoka {hy.__version__}, in float64",
+            "clock": f"a march by itself, or the call of a solver; {where}",
+        },
+        points=tuple(point for task in wanted.tasks for point in found[task]),
+        missing=wanted.missing,
+        counts={solver.name: solver.counts for solver in SOLVERS if solver.counts != CALLS},
+    )
+
+
+def _results(
+    wanted: Plan, kept: Kept, jobs: int, executor: str, progress: Callable[[int, int], None]
+) -> Iterator[tuple[Task, tuple[WorkPoint, ...]]]:
+    """Every task with its points: those that are kept, then the others as they finish."""
+    pending = []
+    for task in wanted.tasks:
+        points = kept.get(task)
+        if points is None:
+            pending.append(task)
+        else:
+            yield task, points
+    done = len(wanted.tasks) - len(pending)
+    progress(done, len(wanted.tasks))
+    workers = max(1, min(jobs, len(pending))) if jobs > 0 else jobs
+    with opened(executor, workers) as pool:
+        for task, points in results(pool, work, pending, workers):
+            kept.put(task, points)
+            done += 1
+            progress(done, len(wanted.tasks))
+            yield task, points

@@ -1,0 +1,94 @@
+"""A report as readable tables: what an error of a given size costs, in evaluations and in seconds."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from compare import grid
+from compare.grid import Column, Grid, Section
+from compare.rendering import Tables
+from compare.report.families import family
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator, Sequence
+
+    from compare.machine import Columns
+    from compare.report.records import Report, WorkPoint
+
+__all__ = ["COLUMNS", "TABLES", "TARGETS", "cases", "sections"]
+
+COLUMNS: Columns = {
+    "points": (
+        "family",
+        "amplitude",
+        "name",
+        "kind",
+        "setting",
+        "max_error",
+        "floor",
+        "evaluations",
+        "seconds",
+        "failure",
+    )
+}
+TARGETS = tuple(float(f"1e-{k}") for k in range(2, 15, 2))
+
+
+def sections(report: Report, width: int = 100) -> Iterator[Section]:
+    """The readable tables, problem by problem, then what failed and what is missing."""
+    for title, points in cases(report):
+        yield from case_sections(report, title, points)
+    yield from closing(report, width)
+
+
+def cases(report: Report) -> Iterator[tuple[str, list[WorkPoint]]]:
+    """Each problem in words, with its points."""
+    for name, amplitude in dict.fromkeys((point.family, point.amplitude) for point in report.points):
+        known = family(name)
+        points = [point for point in report.points if (point.family, point.amplitude) == (name, amplitude)]
+        yield f"{name}, {known.symbol} = {amplitude!r} {known.units}", points
+
+
+def case_sections(report: Report, title: str, points: Sequence[WorkPoint]) -> Iterator[Section]:
+    """What an error costs on one problem."""
+    names = {point.name for point in points}
+    counts = [f"{name}: {what}" for name, what in report.counts.items() if name in names]
+    yield _costs(f"Evaluations, {title}", points, lambda point: point.evaluations, str, counts)
+    yield _costs(f"Seconds, {title}", points, lambda point: point.seconds, lambda cost: f"{cost:.1e}")
+
+
+def _costs(
+    title: str,
+    points: Sequence[WorkPoint],
+    cost: Callable[[WorkPoint], Any],
+    text: Callable[[Any], str],
+    notes: Sequence[str] = (),
+) -> Section:
+    def least(name: str, target: float) -> str:
+        costs = [cost(point) for point in points if point.name == name and point.max_error <= target]
+        return text(min(costs)) if costs else "-"
+
+    columns = Column("", left=True), *(Column(f"{target:.0e}") for target in TARGETS)
+    rows = tuple((name, *(least(name, t) for t in TARGETS)) for name in dict.fromkeys(p.name for p in points))
+    whole = f"{title}: the least of those measured whose largest error, in {family(points[0].family).units}, is below"
+    return Section(grid.slug(title.lower()), whole, (Grid(columns, rows),), "\n".join(notes))
+
+
+def closing(report: Report, width: int) -> Iterator[Section]:
+    """What failed, and what is not installed."""
+    failures: dict[tuple[str, str], list[str]] = {}
+    for point in report.points:
+        if point.failure:
+            where = f"{point.family} {point.amplitude!r}"
+            failures.setdefault((point.name, point.failure), []).append(where)
+    if failures:
+        columns = Column("", left=True), Column("where", left=True), Column("what it said", left=True)
+        rows = [(name, ", ".join(dict.fromkeys(where)), why) for (name, why), where in failures.items()]
+        yield Section("failures", "What failed", (grid.folded(columns, rows, width),))
+    if report.missing:
+        labels = Column("package", left=True), Column("what installs it", left=True)
+        yield Section("missing-solvers", "Missing", (Grid(labels, tuple(report.missing.items())),))
+
+
+TABLES = Tables(sections, COLUMNS)
+"""How a report is shown."""
