@@ -21,8 +21,8 @@ ASKED = {
     "tautochrone": ("--angle 2 --radius 1 --t 0.5", "angle angular_velocity x y descent_time period energy"),
     "descent": (
         "--curve quartic --t 0.5 --fraction 0.5",
-        "descent_time arc_length x y speed velocity_x velocity_y place place_rate passage_time passage_x passage_y "
-        "passage_speed passage_velocity_x",
+        "descent_time arc_length x y speed velocity_x velocity_y place place_rate "
+        + "passage_time passage_x passage_y passage_speed passage_velocity_x",
     ),
     "polar": (
         "--z0 0.2 --tau 1",
@@ -88,7 +88,7 @@ def test_the_envelope_law(capsys):
 @pytest.mark.parametrize(
     ("family", "options", "name", "near"),
     [
-        ("pendulum", "--theta0 3.141592653588793 --t 10", "theta", 3.141592653),
+        ("pendulum", "--theta0 3.141592653588793 --t 1", "theta", 3.141592653),
         ("pendulum", "--theta0 1e-150 --t 1", "theta", -0.99997 * 1e-150),
         ("pendulum", "--theta0 0 --omega0 6.264183905352594 --t 1", "theta", 2.9681),
         ("pendulum", "--theta0 2 --t 1073741824", "omega", None),
