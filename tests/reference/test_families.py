@@ -11,6 +11,8 @@ import reference
 from reference.__main__ import main
 from reference.families import FAMILIES
 
+MOVING = "x y speed velocity_x velocity_y place place_rate"
+PASSING = "passage_time passage_x passage_y passage_speed passage_velocity_x"
 ASKED = {
     "pendulum": ("--theta0 1 --t 10", "theta omega period energy"),
     "linear": ("--theta0 1 --t 10", "theta omega period energy"),
@@ -21,8 +23,7 @@ ASKED = {
     "tautochrone": ("--angle 2 --radius 1 --t 0.5", "angle angular_velocity x y descent_time period energy"),
     "descent": (
         "--curve quartic --t 0.5 --fraction 0.5",
-        "descent_time arc_length x y speed velocity_x velocity_y place place_rate "
-        + "passage_time passage_x passage_y passage_speed passage_velocity_x",
+        f"descent_time arc_length {MOVING} {PASSING}",
     ),
     "polar": (
         "--z0 0.2 --tau 1",
