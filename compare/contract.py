@@ -59,6 +59,8 @@ class System(Equation, Protocol):
 class Method(Protocol):
     """A method with a fixed step, as a march takes it."""
 
+    def __hash__(self) -> int: ...
+
     @property
     def name(self) -> str: ...
     @property

@@ -12,20 +12,17 @@ import math
 import sys
 import time
 from collections import defaultdict
-from dataclasses import dataclass
-from fractions import Fraction
+from dataclasses import dataclass, field
+from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from compare.aspects import conserves
+from compare.lane import Lane, March, StartInvariant, grain_of, sample_steps
 from compare.trace import compile_block, entry_rows, plain_block
-from reference.arithmetic import BALL
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
-
-    from flint import arb
 
     from compare.contract import Method
     from compare.precision import Precision
@@ -34,8 +31,7 @@ if TYPE_CHECKING:
 
 __all__ = ["Lane", "March", "StartInvariant", "iterations_for", "march", "march_alone", "sample_steps"]
 
-LONG_BLOCKS, SHORT_BLOCK = (64, 32, 16), 8
-LONG_MARCH = 8192
+SHORT_BLOCK = 8
 BLOCK_SIZE, WIDE_BLOCK_SIZE = 256, 32
 """Evaluations in a compiled block, about: many where a call costs as much as hundreds of steps, few in wide formats."""
 JACOBIAN_SIZE, JACOBIAN_BATCH = 3, 16
@@ -46,66 +42,6 @@ CLOCKED_RUNS, BRIEF = 3, 0.02
 """A march alone of less than BRIEF seconds is clocked this often."""
 CONVERGED = 1000
 """A last iteration may change the state by this many roundings."""
-
-
-@dataclass(frozen=True)
-class Lane:
-    """One march: a problem from its start in n steps of size h.
-
-    Attributes:
-        h: the exact step size, a number of the format.
-        samples: the step numbers, increasing and at most n, at which the state is kept.
-    """
-
-    problem: Problem
-    n: int
-    h: Fraction
-    samples: tuple[int, ...]
-
-
-@dataclass(frozen=True)
-class March:
-    """What a lane gave.
-
-    Attributes:
-        states: [samples, state] in the format; NaN where the stage equations of an implicit method did not converge.
-        max_drift: the largest |invariant - its start| after any step.
-        evaluations: of the right-hand side, over the march.
-        jacobians: evaluations of its Jacobian, or of the invariant's gradient.
-    """
-
-    states: np.ndarray
-    max_drift: float
-    evaluations: int
-    jacobians: int
-
-
-@dataclass(frozen=True)
-class StartInvariant:
-    """The invariant of a problem at its exact start, to be rounded to any format."""
-
-    problem: Problem
-
-    def ball(self) -> arb:
-        """The enclosure at the precision in force; 0 where the problem conserves nothing."""
-        if not conserves(self.problem):
-            return BALL.number(Fraction(0))
-        start = [BALL.number(value) for value in self.problem.start]
-        parameters = {name: BALL.number(value) for name, value in self.problem.parameters.items()}
-        ball: arb = self.problem.invariant(BALL, start, parameters)
-        return ball
-
-
-def sample_steps(n: int, count: int) -> tuple[int, ...]:
-    """At most ``count`` steps spread evenly over 1 ... n, the last n, each at the end of a block of the march."""
-    grain = _grain(n)
-    spread = min(count, n // grain)
-    return tuple(grain * -(-(n // grain) * (j + 1) // spread) for j in range(spread))
-
-
-def _grain(n: int) -> int:
-    """Steps per block where only the last state of each is wanted; 1 where every state is."""
-    return next((block for block in LONG_BLOCKS if n % block == 0 and n >= LONG_MARCH), 1)
 
 
 def _block_steps(grain: int, size: int, fmt: Precision, opening: int) -> int:
@@ -161,18 +97,32 @@ def _groups(method: Method, lanes: Sequence[Lane], fmt: Precision) -> Iterator[t
         if method.separable_only and not getattr(lane.problem, "positions", 0):
             raise ValueError(f"{method.name} splits kicks from drifts, and {lane.problem.name} is not separable.")
         iterations = iterations_for(method, lane.problem, float(lane.h), fmt.bits)
-        grain = _grain(lane.n)
+        grain = grain_of(lane.n)
         if any(step % grain for step in lane.samples):
             grain = 1
-        groups[_equation(lane.problem), grain, iterations].append(i)
+        groups[_Equation.of(lane.problem), grain, iterations].append(i)
     for (_, grain, iterations), members in groups.items():
         members.sort(key=lambda i: -lanes[i].n)
         yield members, _Group(method, [lanes[i] for i in members], fmt, grain, iterations)
 
 
-def _equation(problem: Problem) -> Any:
+@dataclass(frozen=True)
+class _Equation:
     """What problems must share to share a block: an equation, which on a curve depends on more than parameters."""
-    return type(problem), getattr(problem, "curve", None)
+
+    family: type
+    curve: Any
+    problem: Problem = field(compare=False)
+
+    @classmethod
+    def of(cls, problem: Problem) -> _Equation:
+        return cls(type(problem), getattr(problem, "curve", None), problem)
+
+
+@lru_cache(maxsize=64)
+def _compiled(method: Method, equation: _Equation, *shape: Any, inline_sine: bool) -> Block:
+    """``compile_block``, kept: a study comes back to the same block with other lanes."""
+    return compile_block(method, equation.problem, *shape, inline_sine=inline_sine)
 
 
 class _Group:
@@ -192,10 +142,10 @@ class _Group:
         self.dimension = len(problem.state_names)
         self.ends = np.array([lane.n for lane in lanes])
         record: Record = "every" if self.every else "last"
-        self.block: Block = compile_block(
-            method, problem, fmt, self.steps, record, self.batch, iterations, inline_sine=inline
+        self.block = _compiled(
+            method, _Equation.of(problem), fmt, self.steps, record, self.batch, iterations, inline_sine=inline
         )
-        self.states = [fmt.zeros((len(lane.samples), self.dimension)) for lane in lanes]
+        self.states = self._room(lanes)
         self.maxima = np.zeros((len(lanes), 2))
         self.seconds = math.nan
 
@@ -203,8 +153,12 @@ class _Group:
         """A group of one of the lanes that shares the compiled block."""
         one = copy.copy(self)
         one.lanes, one.ends = [lane], np.array([lane.n])
-        one.states, one.maxima = [self.fmt.zeros((len(lane.samples), self.dimension))], np.zeros((1, 2))
+        one.states, one.maxima = self._room([lane]), np.zeros((1, 2))
         return one
+
+    def _room(self, lanes: Sequence[Lane]) -> np.ndarray:
+        """Zeros for the states to be kept: [lanes, samples, state], the samples those of the lane that has most."""
+        return self.fmt.zeros((len(lanes), max(len(lane.samples) for lane in lanes), self.dimension))
 
     def run(self) -> list[March]:
         """March to the end of every lane, and note the seconds that the loop took."""
@@ -223,7 +177,7 @@ class _Group:
             taken += self.steps
             lanes, out, spare = out[-rows:], spare, out
             if self.every or taken in events:
-                self._keep(spare.reshape(-1, rows, lanes.shape[1]), taken, events.get(taken, ()))
+                self._keep(spare.reshape(-1, rows, lanes.shape[1]), taken, events.get(taken))
                 width = self._width(taken)
                 if width < lanes.shape[1]:
                     shrunk = (np.ascontiguousarray(array[:, :width]) for array in (lanes, parameters, out, spare))
@@ -255,19 +209,22 @@ class _Group:
             return rows.reshape(-1, lanes.shape[1])
         return np.concatenate([rows[-1, :-2], rows[:, -2:].max(axis=0)])
 
-    def _events(self) -> dict[int, list[tuple[int, int, int]]]:
-        """Steps taken at the end of a block -> (lane, sample, index in the block's output) of the states to keep."""
-        events: dict[int, list[tuple[int, int, int]]] = defaultdict(list)
-        for i, lane in enumerate(self.lanes):
-            for sample, step in enumerate(lane.samples):
-                short = -step % self.steps
-                events[step + short].append((i, sample, -1 - short))
-        return events
+    def _events(self) -> dict[int, np.ndarray]:
+        """Steps taken at the end of a block -> rows (lane, sample, index in the block's output) of states to keep."""
+        steps = np.concatenate([lane.samples for lane in self.lanes])
+        lanes = np.repeat(np.arange(len(self.lanes)), [len(lane.samples) for lane in self.lanes])
+        samples = np.concatenate([np.arange(len(lane.samples)) for lane in self.lanes])
+        short = -steps % self.steps
+        order = np.argsort(steps + short, kind="stable")
+        ends, first = np.unique((steps + short)[order], return_index=True)
+        rows = np.split(np.stack([lanes, samples, -1 - short])[:, order], first[1:], axis=1)
+        return dict(zip(ends.tolist(), rows, strict=True))
 
-    def _keep(self, outputs: np.ndarray, taken: int, events: Sequence[tuple[int, int, int]]) -> None:
+    def _keep(self, outputs: np.ndarray, taken: int, events: np.ndarray | None) -> None:
         """Keep the wanted states of a block that ended at step ``taken``, and the largest drift and change."""
-        for lane, sample, index in events:
-            self.states[lane][sample] = outputs[index, : self.dimension, lane]
+        if events is not None:
+            lane, sample, index = events
+            self.states[lane, sample] = outputs[index, : self.dimension, lane]
         count = min(len(self.lanes), outputs.shape[2])
         if self.every:
             values = outputs[:, -2:, :count].astype(np.float64)
@@ -283,7 +240,8 @@ class _Group:
         return self.batch * -(-int(np.count_nonzero(self.ends > taken)) // self.batch)
 
     def _result(self, i: int) -> March:
-        lane, states = self.lanes[i], self.states[i]
+        lane = self.lanes[i]
+        states = self.states[i, : len(lane.samples)]
         drift, change = self.maxima[i]
         size = max(1.0, float(np.max(np.abs(states.astype(np.float64)))))
         if not change <= CONVERGED * self.fmt.epsilon * size:
