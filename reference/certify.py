@@ -49,7 +49,8 @@ def agreement(problem: Problem, row: str, arguments: Sequence[Any], route: str) 
     """Compare a route with the enclosure on every argument: one Agreement a quantity, None if it has no such row.
 
     Digits are -log10(|difference| / scale), with the scale the largest absolute value of the quantity over the
-    arguments: near its zeros a relative error would say nothing about the route.
+    arguments: near its zeros a relative error would say nothing about the route.  Over an index each value is its own
+    scale.
 
     Raises:
         DisagreementError: fewer than REQUIRED_DIGITS digits agree somewhere.
@@ -61,7 +62,8 @@ def agreement(problem: Problem, row: str, arguments: Sequence[Any], route: str) 
     asked, results = problem.row(row), []
     for i, quantity in enumerate(asked.quantities):
         pairs = [(truth[i], value[i]) for truth, value in zip(proven, found, strict=True)]
-        digits = _digits(pairs)
+        each = [[pair] for pair in pairs] if asked.over == "index" else [pairs]
+        digits = [found for compared in each for found in _digits(compared)]
         worst = min(range(len(pairs)), key=digits.__getitem__)
         if digits[worst] < REQUIRED_DIGITS:
             truth, value = pairs[worst]

@@ -111,8 +111,16 @@ def test_a_wrong_route_is_found_below_the_range_of_doubles_too(monkeypatch, thet
 
 def test_a_wrong_index_is_named(monkeypatch):
     monkeypatch.setattr(Pendulum, "by_route", wrong_by(Fraction(1, 10**30), "quadrature"))
-    with pytest.raises(DisagreementError, match=r"zero_crossing of Pendulum.* at index 4 is "):
-        agreement(Pendulum(1.0), "zero_crossing", [0, 4], "quadrature")
+    with pytest.raises(DisagreementError, match=r"zero_crossing of Pendulum.* at index 4 is .*: 30.0 digits agree"):
+        agreement(Pendulum(1.0), "zero_crossing", [4], "quadrature")
+
+
+def test_over_an_index_each_value_is_its_own_scale(monkeypatch):
+    """An error in the first, of 50 digits of itself and of 59 digits of the last."""
+    honest = Pendulum("1").by_route("quadrature", "zero_crossing", [0, 10**9], 60)
+    found = [(honest[0][0] * (1 + Fraction(1, 10**50)),), honest[1]]
+    monkeypatch.setattr(Pendulum, "by_route", lambda *_: found)
+    assert agreement(Pendulum(1.0), "zero_crossing", [0, 10**9], "quadrature")[0].digits == pytest.approx(50, abs=0.1)
 
 
 def test_what_needs_more_bits_than_the_limit_is_an_error(monkeypatch):

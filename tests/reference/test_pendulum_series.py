@@ -85,6 +85,13 @@ def test_every_row_agrees_with_the_routes_it_has(route, order):
         assert found is None or found[0].digits >= 55
 
 
+def test_small_errors_of_high_orders_agree_by_their_own_size():
+    problem = PendulumSeries(0.01)
+    assert abs(float(problem.certified("lindstedt_error", 8))) < 1e-70
+    for row in ("period_series_error", "lindstedt_error"):
+        assert agreement(problem, row, [0, 8], "quadrature")[0].digits >= 55
+
+
 def test_a_pendulum_gives_its_expansions():
     pendulum = Pendulum(1.0)
     period, motion = pendulum.period_series(2), pendulum.lindstedt(2)

@@ -50,21 +50,22 @@ class Expansion(Problem):
 
     def closed_form(self, m: EllipticArithmetic) -> Expanded:
         """The exact coefficients against the closed form."""
-        return self._expanded(m, self.pendulum.closed_form(m), series)
+        return self.expanded(m, self.pendulum.closed_form(m), series)
 
     def quadrature_form(self) -> Expanded:
         """Coefficients from Cauchy's integrals against mpmath's elliptic functions and integrals."""
-        return self._expanded(MPMATH, self.pendulum.quadrature_form(), contour)
+        return self.expanded(MPMATH, self.pendulum.quadrature_form(), contour)
 
     def taylor_form(self, bits: int) -> Solution:
         """The exact coefficients against the flow of the equation of motion."""
         return ByTaylor(self, bits)
 
-    def _expanded(self, m: Any, motion: Any, source: Any) -> Expanded:
+    def expanded(self, m: Any, motion: Any, source: Any) -> Expanded:
+        """The rows in an arithmetic: of which motion, and where the coefficients come from."""
         raise NotImplementedError
 
     def _lost(self, power: int) -> int:
-        """Bits lost to a difference of about (theta0/pi)^power."""
+        """Bits lost to a difference of about (theta0/4)^power."""
         ratio = 4 / self.theta0
         return power * max(0, ratio.numerator.bit_length() - ratio.denominator.bit_length()) + 8
 
@@ -135,14 +136,14 @@ class ByTaylor:
 
     def __init__(self, problem: Expansion, bits: int) -> None:
         self._motion = Integrated(problem.pendulum, bits)
-        self._expanded = problem._expanded(MPMATH, self._motion, series)  # noqa: SLF001 - our own kind
+        self._form = problem.expanded(MPMATH, self._motion, series)
 
     def rows(self, row: str, arguments: Sequence[Any]) -> list[tuple[Fraction, ...]]:
         if row == "lindstedt_angle_error":
-            found = self._expanded.rows("lindstedt_angle", arguments)
+            found = self._form.rows("lindstedt_angle", arguments)
             errors = [angle - truth for (angle,), truth in zip(found, self._motion.angles(arguments), strict=True)]
         else:
-            errors = [error for (error,) in self._expanded.rows(row, arguments)]
+            errors = [error for (error,) in self._form.rows(row, arguments)]
         return [(quadrature.to_fraction(error),) for error in errors]
 
 
@@ -162,7 +163,7 @@ class PendulumSeries(Expansion):
     name: ClassVar[str] = "pendulum series"
     rows: ClassVar[tuple[Row, ...]] = SERIES_ROWS
 
-    def _expanded(self, m: Any, motion: Any, source: Any) -> Expanded:
+    def expanded(self, m: Any, motion: Any, source: Any) -> Expanded:
         return Expanded(m, motion, source, self.theta0)
 
     def exact_row(self, row: str, argument: Any) -> None:
@@ -201,7 +202,7 @@ class LindstedtMotion(Expansion):
     def __repr__(self) -> str:
         return f"LindstedtMotion({self._spelled()}, order={self.order})"
 
-    def _expanded(self, m: Any, motion: Any, source: Any) -> Expanded:
+    def expanded(self, m: Any, motion: Any, source: Any) -> Expanded:
         return Expanded(m, motion, source, self.theta0, self.order)
 
     def within_taylor(self, row: str, arguments: Sequence[Any]) -> bool:
