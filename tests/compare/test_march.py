@@ -15,7 +15,7 @@ from compare.march import Lane, StartInvariant, iterations_for, march, sample_st
 from compare.method import Splitting
 from compare.methods import METHODS, find
 from compare.precision import precision
-from compare.trace import plain_block
+from compare.trace import compile_block, plain_block
 from reference import Pendulum
 
 if TYPE_CHECKING:
@@ -143,6 +143,22 @@ def test_a_long_march_of_many_lanes_gives_what_its_lanes_give_alone(monkeypatch:
     assert any(not np.array_equal(one.states, other.states) for one, other in zip(plain, inlined, strict=True))
     for one, other in zip(plain, inlined, strict=True):
         np.testing.assert_allclose(one.states, other.states, rtol=0, atol=1e-9)
+
+
+def test_a_block_is_compiled_once_for_all_lanes_that_come_back_to_it(monkeypatch: pytest.MonkeyPatch) -> None:
+    compiled = []
+
+    def compile_and_count(*words: Any, **options: Any) -> Any:
+        compiled.append(words)
+        return compile_block(*words, **options)
+
+    monkeypatch.setattr("compare.march.compile_block", compile_and_count)
+    method = replace(find("rk4"), name="rk4_once")
+    for amplitude in (1.0, 2.0):
+        march(method, [lane(200, Pendulum(amplitude))], FLOAT64)
+    assert len(compiled) == 1
+    march(method, [lane(8192)], FLOAT64)
+    assert len(compiled) == 2
 
 
 def test_memory_does_not_grow_with_n() -> None:
