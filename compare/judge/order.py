@@ -33,7 +33,10 @@ RECOGNISABLE = 0.1
 TOLERANCES = (0.02, 0.05, 0.1)
 """How far slopes of one range may lie from their middle: the first of these that gives enough of them."""
 ENOUGH = 4
-RESOLUTION = 0.01
+FINEST = 3
+"""Slopes at the fine end that tell where the errors are going."""
+RESOLUTION, ROUGH = 0.01, 0.2
+"""The least half-width of an interval, and of one above a plateau."""
 FIRST_COUNTS = 5
 
 
@@ -80,9 +83,12 @@ class Order:
 
 
 def ladder(most: int) -> tuple[int, ...]:
-    """8, 12, 16, 24, 32, ... up to ``most``: multiples of the samples."""
-    halves = (SAMPLES * base << k for k in range(1, 20) for base in (2, 3))
-    return tuple(sorted({n // 2 for n in halves if n // 2 <= most}))
+    """8, 12, 16, ..., 32, 40, ..., 64, 96, 128, 192, ... up to ``most``: multiples of the samples.
+
+    They are close where a method of high order shows its slope, before it meets rounding.
+    """
+    found = {SAMPLES * part << k for k in range(20) for part in (2, 3)} | {SAMPLES * part for part in (5, 7, 10, 14)}
+    return tuple(sorted(n for n in found if n <= most))
 
 
 def measured(marcher: Marcher, t_end: float, counts: Sequence[int]) -> Order:
@@ -168,10 +174,12 @@ def _flat(cells: Sequence[Cell], usable: Sequence[Cell], slopes: Sequence[float]
 def _range(slopes: Sequence[float], *, by_the_end: bool) -> tuple[int, int]:
     """The cells [first, last) of the longest run of slopes that agree, the finer of two.
 
-    Where the errors go on falling to the end, they must agree with the finest slopes: a term of low order shows there.
-    Where they end in a plateau, the last slopes are bent, and the longest run speaks for itself.
+    Where the errors go on falling to the end, one of the finest slopes must be in it, for a term of low order shows
+    there; where no run is long enough, the finest are taken as they are.  Where the errors end in a plateau, the last
+    slopes are bent, and the longest run speaks for itself.
     """
-    targets = [median(slopes[-3:])] if by_the_end else list(slopes)
+    targets = [median(slopes[-FINEST:])] if by_the_end else list(slopes)
+    least_end = len(slopes) - FINEST if by_the_end else 0
     best = 0, 0
     for tolerance in TOLERANCES:
         for target in targets:
@@ -179,25 +187,22 @@ def _range(slopes: Sequence[float], *, by_the_end: bool) -> tuple[int, int]:
             for i, slope in enumerate(slopes):
                 if abs(slope - target) > tolerance:
                     first = i + 1
-                elif i + 2 - first >= best[1] - best[0]:
+                elif i >= least_end and i + 2 - first >= best[1] - best[0]:
                     best = first, i + 2
         if best[1] - best[0] >= ENOUGH:
-            break
-    return best
+            return best
+    return (max(0, least_end), len(slopes) + 1) if by_the_end else best
 
 
 def _line(cells: Sequence[Cell], chosen: Sequence[Cell], slopes: Sequence[float], plateau: float | None) -> Order:
     """One slope through the chosen cells; its interval is twice as wide as the local slopes lie, for they drift."""
     if len(chosen) < 2:
         return Order(tuple(cells), None, 0.0, "few", plateau)
-    x, y = (
-        np.array([math.log(value) for value in values])
-        for values in zip(*((c.n, 1 / c.error) for c in chosen), strict=True)
-    )
     if len(chosen) == 2:
         value, half = slopes[0], 0.5
     else:
+        x, y = (np.log(column) for column in zip(*((cell.n, 1 / cell.error) for cell in chosen), strict=True))
         value, half = slope_with_interval(x, y)
-    half = max(half, RESOLUTION, *(2 * abs(slope - value) for slope in slopes))
+    half = max(half, RESOLUTION if plateau is None else ROUGH, *(2 * abs(slope - value) for slope in slopes))
     marked = tuple(replace(cell, used=cell in chosen) for cell in cells)
     return Order(marked, value, half, "slope", plateau)

@@ -227,17 +227,17 @@ def power(order, count, size=1.0):
 
 
 def test_a_slope_is_fitted_without_the_rounding_below_it():
-    found = fitted(cells([max(error, 2e-15) for error in power(6, 16)]))
+    found = fitted(cells([max(error, 2e-15) for error in power(6, 20)]))
     assert (found.kind, found.plateau) == ("slope", None)
     assert found.value == pytest.approx(6, abs=1e-6)
     assert sum(cell.used for cell in found.cells) >= 6
 
 
 def test_a_slope_that_ends_in_a_tolerance_is_told_from_one_that_bends():
-    ends = fitted(cells([error + 1e-6 for error in power(4, 16)]))
+    ends = fitted(cells([error + 1e-6 for error in power(4, 22)]))
     assert ends.value == pytest.approx(4, abs=0.05)
     assert ends.plateau == pytest.approx(1e-6, rel=0.1)
-    bends = fitted(cells([a + b for a, b in zip(power(4, 16), power(1, 16, 1e-3), strict=True)]))
+    bends = fitted(cells([a + b for a, b in zip(power(4, 22), power(1, 22, 1e-3), strict=True)]))
     assert bends.value == pytest.approx(1, abs=0.05)
 
 
@@ -246,3 +246,10 @@ def test_errors_that_never_fall_have_order_zero_and_those_at_rounding_none():
     assert (flat.kind, flat.value) == ("flat", 0.0)
     floor = fitted(cells([1e-15] * 12))
     assert (floor.kind, floor.value) == ("floor", None)
+
+
+def test_a_slope_that_is_bending_where_rounding_ends_it_is_not_said_to_be_sharp():
+    """Coefficients of seven digits: order four, until the missing digits show."""
+    found = fitted(cells([a + b for a, b in zip(power(4, 22), power(1, 22, 1e-8), strict=True)]))
+    assert found.half_width > 0.3
+    assert found.value + found.half_width > 3.9
