@@ -9,7 +9,8 @@ import pytest
 
 from reference.expression import Expression
 from reference.problems.descent import RACE, Descent
-from reference.problems.descent.surds import COSINES, PI, UNKNOWN, NotExactError, Surd, exact_root, exactly, surd
+from reference.problems.descent.exactly import COSINES, exactly
+from reference.problems.descent.surds import PI, UNKNOWN, NotExactError, Surd, exact_root, surd
 
 ALONG_THE_PASSAGE = {
     ("line", 1): {"1/3": (None, None, Fraction(4, 3), None, None), "1": (None, 0, 0, 2, None)},
@@ -182,7 +183,7 @@ def test_what_is_beyond_these_numbers_is_not_claimed_to_be_known(text):
 
 def test_the_known_cosines_are_cosines():
     for turns, cosine in COSINES.items():
-        value = sum(float(q) * math.sqrt(d) for (_, _, d), q in cosine.top.items())
+        value = sum(float(q) * math.sqrt(d) for (*_, d), q in cosine.top.items())
         assert value / sum(float(q) for q in cosine.bottom.values()) == pytest.approx(
             math.cos(math.pi * turns), abs=1e-15
         )
@@ -204,3 +205,49 @@ def test_a_root_of_a_rational_is_exact_or_none():
     assert exact_root(Fraction(0)) == 0
     assert exact_root(Fraction(2)) is None
     assert exact_root(Fraction(-4)) is None
+
+
+BY_ANGLE = {
+    "from the cusp": (Descent("x = p - sin(p); y = cos(p)", 1, 0, "pi"), None, 4),
+    "part of the way": (Descent("x = p - sin(p); y = cos(p)", 4, 0, 1), Fraction(1, 2), None),
+    "of radius three": (Descent("x = 3*(p - sin(p)); y = -3*(1 - cos(p))", 3, 0, 3), 3, None),
+    "from its side": (Descent("x = p + sin(p); y = 1 - cos(p)", 1, "-pi/3", 0), None, 2),
+    "a circle": (Descent("x = 3*cos(p); y = 3*sin(p)", 1, 1, 0), None, 3),
+    "a cardioid": (Descent("x = 2*cos(p) - cos(2*p); y = sin(2*p) - 2*sin(p)", 1, "pi/3", "2*pi/3"), None, None),
+    "squares": (Descent("x = 0; y = -p**2", 2, 0, 3), 3, 9),
+}
+
+
+@pytest.mark.parametrize("name", BY_ANGLE)
+def test_a_time_or_a_length_by_an_angle_may_be_rational(name):
+    problem, time, length = BY_ANGLE[name]
+    assert problem.exact_row("descent_time", None) == (None if time is None else (time,))
+    assert problem.exact_row("arc_length", None) == (None if length is None else (length,))
+    for row in ("descent_time", "arc_length"):
+        form = getattr(problem.quadrature_form(), row)
+        assert float(form) == pytest.approx(float(problem.certified(row)), rel=1e-14)
+
+
+def test_on_a_cycloid_the_angle_goes_as_the_time():
+    problem = BY_ANGLE["part of the way"][0]
+    assert problem.exact_row("state", Fraction(1, 8)) == (Fraction(1, 4), 2)
+    assert problem.exact_row("passage", Fraction(1, 4))[0] == Fraction(1, 8)
+    assert problem.state(Fraction(1, 8)).tolist() == [0.25, 2]
+    assert BY_ANGLE["squares"][0].exact_row("state", Fraction(3, 2)) == (Fraction(1, 2), Fraction(1, 3))
+
+
+@pytest.mark.parametrize(("text", "at"), [("cos(x)", 1.1), ("sin(3*x)", 0.7), ("cos(-5*x/2)", 2.0), ("tan(x/2)", 0.4)])
+def test_a_sine_of_the_unknown_is_a_quotient_in_the_tangent_of_its_quarter(text, at):
+    found = exactly(Expression.parse(text, "x"), UNKNOWN)
+    tangent = math.tan(at / 4)
+    top, bottom = (
+        sum(float(q) * tangent**k * math.sqrt(d) for (_, k, _, d), q in part.items())
+        for part in (found.top, found.bottom)
+    )
+    assert top / bottom == pytest.approx(
+        {"c": math.cos, "s": math.sin, "t": math.tan}[text[0]](
+            at * {"cos(x)": 1, "sin(3*x)": 3, "cos(-5*x/2)": -2.5, "tan(x/2)": 0.5}[text]
+        )
+    )
+    assert exactly(Expression.parse("sin(x)**2 + cos(x)**2", "x"), UNKNOWN) == 1
+    assert exactly(Expression.parse("sin(x/3)", "x"), UNKNOWN) is None

@@ -16,8 +16,8 @@ from reference.balls import BALL, ComplexBall
 from reference.names import short
 from reference.problems.descent.clock import NoChartError, pieces
 from reference.problems.descent.curves import Curve, FormulaCurve
+from reference.problems.descent.exactly import exactly
 from reference.problems.descent.slide import Slide
-from reference.problems.descent.surds import exactly
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

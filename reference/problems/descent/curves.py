@@ -72,17 +72,18 @@ class FormulaCurve(Curve):
         return repr(self.name) if named else f"{self.name!r}, start={self.start!r}, end={self.end!r}"
 
     def spelled(self, w: Fraction) -> str:
-        return f"{self.variable} = {float(self._parameter(MPMATH, MPMATH.number(w))):.6g}"
+        return f"{self.variable} = {float(self.parameter(MPMATH, MPMATH.number(w))):.6g}"
 
-    def _parameter(self, m: ElementaryArithmetic, w: Any) -> Any:
+    def parameter(self, m: ElementaryArithmetic, w: Any) -> Any:
+        """p at w."""
         start = self.start(m)
         return start + (self.end(m) - start) * w
 
     def horizontal(self, m: ElementaryArithmetic, w: Any) -> Any:
-        return self.x(m, self._parameter(m, w))
+        return self.x(m, self.parameter(m, w))
 
     def height(self, m: ElementaryArithmetic, w: Any) -> Any:
-        return self.y(m, self._parameter(m, w))
+        return self.y(m, self.parameter(m, w))
 
     def slopes(self, m: ElementaryArithmetic, w: Any) -> tuple[Any, Any]:
         return with_slope(m, self.horizontal, w)[1], with_slope(m, self.height, w)[1]

@@ -5,7 +5,7 @@ and v x_w/sqrt(N) may be rational.  On a straight line, which falls by the angle
 
     x = x0 + d (g/2) sin(a) cos(a) t^2,  y = y0 - (g/2) sin(a)^2 t^2,  v = g sin(a) t,  t^2 = 2 drop/(g sin(a)^2):
 
-everything may be rational at any time.
+everything may be rational at any time.  So may be the time, the place and the length on the cycloid by its angle.
 """
 
 from __future__ import annotations
@@ -20,7 +20,8 @@ from flint import ctx
 from reference.balls import BALL
 from reference.dual import with_slope
 from reference.problems.descent.curves import CycloidByArc, FormulaCurve
-from reference.problems.descent.surds import SURD, UNKNOWN, NotExactError, Surd, exact_root, exactly, surd
+from reference.problems.descent.exactly import SURD, exactly, known
+from reference.problems.descent.surds import UNKNOWN, Surd, exact_root, surd
 
 if TYPE_CHECKING:
     from reference.problems.descent.slide import Slide
@@ -54,6 +55,52 @@ class Line:
         return 2 * drop / (g * self.sine_square)
 
 
+def _straight(curve: FormulaCurve) -> Line | None:
+    (dx, dy), (ddx, ddy) = curve.slopes(SURD, UNKNOWN), curve.second_slopes(SURD, UNKNOWN)
+    square = dx * dx + dy * dy
+    return Line(surd(dy * dy / square), surd(-dx * dy / square)) if surd(dx * ddy - dy * ddx).is_zero else None
+
+
+@dataclass(frozen=True)
+class Parameter:
+    """The parameter p from ``start`` to ``end``, the square of the arc for a unit of it, and the drop if known."""
+
+    start: Surd
+    end: Surd
+    unit_square: Surd
+    drop: Surd | None
+
+    @property
+    def way(self) -> Surd:
+        return self.end - self.start
+
+    def pace_square(self, g: Fraction) -> Fraction | None:
+        """p'^2 = 2 g drop/N, where it is constant: on a cycloid that starts at its cusp, by its angle."""
+        drop = self.drop
+        return None if drop is None else known(lambda: (2 * g * drop / self.unit_square).rational or None)
+
+    def arc_square(self) -> Surd | None:
+        """The square of the length: of a circle, N = k, and of the cycloid's and the cardioid's, N = k (1 +- cos p).
+
+        sqrt(k (1 - cos p)) = sqrt(2 k) |sin(p/2)| has the integral 2 sqrt(2 k) cos(p/2), and its sign does not change
+        on the way, as N has no zero there; that of 1 + cos p has 2 sqrt(2 k) sin(p/2).
+        """
+        if (k := self.unit_square.rational) is not None:
+            return k * self.way * self.way
+        for sign, primitive in ((-1, SURD.cos), (1, SURD.sin)):
+            if (k := (self.unit_square / (1 + sign * SURD.cos(UNKNOWN))).rational) is not None:
+                span = primitive(self.end / 2) - primitive(self.start / 2)
+                return 8 * k * span * span
+        return None
+
+
+def _parameter(curve: FormulaCurve, released: Fraction) -> Parameter:
+    start, end = (curve.parameter(SURD, surd(w)) for w in (released, 1))
+    dx, dy = (with_slope(SURD, formula, UNKNOWN)[1] for formula in (curve.x, curve.y))
+    drop = exactly(lambda m, p: curve.y(m, start) - curve.y(m, p), UNKNOWN)
+    return Parameter(start, end, surd(dx * dx + dy * dy), drop)
+
+
 @dataclass(frozen=True)
 class Rational:
     """The rational values of one descent: None for those that are not known to be rational."""
@@ -63,11 +110,8 @@ class Rational:
 
     def row(self, row: str, argument: Any) -> Values | None:
         """A row's values at an argument; None if there are no such ones."""
-        try:
-            found: Values = getattr(self, f"_{row}")(*([] if argument is None else [argument]))
-        except NotExactError:
-            return None
-        return None if all(value is None for value in found) else found
+        found: Values | None = known(lambda: getattr(self, f"_{row}")(*([] if argument is None else [argument])))
+        return None if found is None or all(value is None for value in found) else found
 
     def _exactly(self, name: str, w: Any) -> Surd | None:
         return exactly(getattr(self.slide.curve, name), w)
@@ -85,34 +129,48 @@ class Rational:
         upright = exactly(lambda m, w: with_slope(m, curve.horizontal, w)[1], UNKNOWN)
         if upright is not None and upright.is_zero:
             return Line(surd(1), surd(0))
-        try:
-            (dx, dy), (ddx, ddy) = curve.slopes(SURD, UNKNOWN), curve.second_slopes(SURD, UNKNOWN)
-            if not surd(dx * ddy - dy * ddx).is_zero:
-                return None
-            square = dx * dx + dy * dy
-            return Line(surd(dy * dy / square), surd(-dx * dy / square))
-        except NotExactError:
+        return known(lambda: _straight(curve))
+
+    @cached_property
+    def parameter(self) -> Parameter | None:
+        """What is simple in the curve's parameter p, if that is known."""
+        curve = self.slide.curve
+        if not isinstance(curve, FormulaCurve):
             return None
+        return known(lambda: _parameter(curve, self.slide.released))
 
     def _descent_time(self) -> Values:
-        drop = self._drop(Fraction(1)) if self.line else None
-        return (_root(self.line.time_square(drop, self.g)) if self.line and drop else None,)
+        return (self._time(Fraction(1)),)
+
+    def _time(self, w: Fraction) -> Fraction | None:
+        """When the body passes w."""
+        if self.parameter is not None and (pace := self.parameter.pace_square(self.g)) is not None:
+            way = self.parameter.way * (w - self.slide.released) / (1 - self.slide.released)
+            return _root(way * way / pace)
+        drop = self._drop(w) if self.line else None
+        return _root(self.line.time_square(drop, self.g)) if self.line and drop else None
 
     def _arc_length(self) -> Values:
         if isinstance(self.slide.curve, CycloidByArc):
             return (4 * (1 - self.slide.released),)
+        if self.parameter is not None and (square := known(self.parameter.arc_square)) is not None:
+            return (_root(square),)
         drop = self._drop(Fraction(1)) if self.line else None
         return (_root(drop * drop / self.line.sine_square) if self.line and drop else None,)
 
     def _state(self, t: Fraction) -> Values:
-        """Of a line, where the height goes as the place: with no second slope along it."""
-        released = self.slide.released
+        """Where the place goes as the time, or on a line as the height: with no second slope along it."""
+        released, left = self.slide.released, 1 - self.slide.released
+        if self.parameter is not None and (pace := self.parameter.pace_square(self.g)) is not None:
+            rate = _root(pace / (self.parameter.way * self.parameter.way))
+            if rate is not None:
+                return released + left * rate * t, left * rate
         if t == 0:
             return released, Fraction(0) if self.slide.order == 1 else None
         drop = self._drop(Fraction(1)) if self.line and self._even else None
         if self.line is None or drop is None:
             return None, None
-        by_square = (1 - released) / self.line.time_square(drop, self.g)
+        by_square = left / self.line.time_square(drop, self.g)
         return _plain(released + by_square * t**2), _plain(2 * by_square * t)
 
     @property
@@ -143,10 +201,8 @@ class Rational:
         drop = self._drop(w)
         if drop is None:
             upright = self.line is not None and self.line.sine_cosine.is_zero
-            return None, x, y, None, Fraction(0) if upright else None
-        square = 2 * self.g * drop
-        time = _root(self.line.time_square(drop, self.g)) if self.line else None
-        return time, x, y, _root(square), self._velocity_x(w, square)
+            return self._time(w), x, y, None, Fraction(0) if upright else None
+        return self._time(w), x, y, _root(2 * self.g * drop), self._velocity_x(w, 2 * self.g * drop)
 
     def _velocity_x(self, w: Fraction, speed_square: Surd) -> Fraction | None:
         """v x_w/sqrt(N), by its square and the sign of x_w."""

@@ -1,8 +1,8 @@
-"""Exact numbers among which a value is known to be rational or not: quotients of sums of q x^i pi^j sqrt(d).
+"""Exact numbers among which a value is known to be rational or not: quotients of sums of q x^i T^k pi^j sqrt(d).
 
-q is rational, d a squarefree whole number, and x an unknown, such as the parameter of a curve.  The products x^i pi^j
-sqrt(d) are linearly independent over the rationals (pi is transcendental), so that equality is decided exactly.  A
-formula read in this arithmetic has its exact value, or raises NotExactError where it leaves these numbers.
+q is rational, d a squarefree whole number, x an unknown, such as the parameter of a curve, and T = tan(x/4).  The
+products x^i T^k pi^j sqrt(d) are linearly independent over the rationals (pi and the functions x and T are
+transcendental), so that equality is decided exactly.
 """
 
 from __future__ import annotations
@@ -12,19 +12,19 @@ from math import gcd, isqrt
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping
+    from collections.abc import Mapping
 
-__all__ = ["SURD", "UNKNOWN", "NotExactError", "Surd", "exact_root", "exactly"]
+__all__ = ["PI", "QUARTER_TANGENT", "UNKNOWN", "NotExactError", "Surd", "exact_root", "rational_root", "surd"]
 
 MAX_TERMS = 200
 MAX_BITS = 4000
 MAX_FACTOR = 1000
 """Square factors are sought among the primes up to here, and in what they leave as a whole."""
 
-Key = tuple[int, int, int]
+Key = tuple[int, int, int, int]
 Sum = dict[Key, Fraction]
-"""(i, j, d) -> the coefficient of x^i pi^j sqrt(d)."""
-ONE: Key = (0, 0, 1)
+"""(i, k, j, d) -> the coefficient of x^i T^k pi^j sqrt(d)."""
+ONE: Key = (0, 0, 0, 1)
 
 
 class NotExactError(ArithmeticError):
@@ -135,10 +135,11 @@ def _product(a: Sum, b: Sum) -> Sum:
     if len(a) * len(b) > MAX_TERMS**2:
         raise NotExactError
     total: Sum = {}
-    for (i, j, d), p in a.items():
-        for (k, n, e), q in b.items():
+    for (*powers, d), p in a.items():
+        for (*others, e), q in b.items():
             common = gcd(d, e)
-            key = i + k, j + n, d * e // common**2
+            i, k, j = (x + y for x, y in zip(powers, others, strict=True))
+            key = i, k, j, d * e // common**2
             total[key] = total.get(key, Fraction(0)) + p * q * common
     return {key: value for key, value in total.items() if value}
 
@@ -151,7 +152,7 @@ def exact_root(value: Fraction) -> Fraction | None:
     return root if root * root == value else None
 
 
-def _rational_root(value: Fraction) -> Surd:
+def rational_root(value: Fraction) -> Surd:
     """r sqrt(d), the square root of a rational."""
     if value < 0:
         raise NotExactError
@@ -164,139 +165,12 @@ def _rational_root(value: Fraction) -> Surd:
         rest, outside = 1, outside * isqrt(rest)
     elif rest > MAX_FACTOR**2:
         raise NotExactError  # it may have a square factor that was not found
-    return Surd({(0, 0, rest): Fraction(outside, value.denominator)} if value else {}, {ONE: Fraction(1)})
+    return Surd({(0, 0, 0, rest): Fraction(outside, value.denominator)} if value else {}, {ONE: Fraction(1)})
 
 
-def _root_sum(*terms: tuple[int, int, int]) -> Surd:
-    """The sum of p/q sqrt(d) over the terms (p, q, d)."""
-    return sum((Fraction(p, q) * _rational_root(Fraction(d)) for p, q, d in terms), surd(0))
+def _single(i: int, k: int, j: int) -> Surd:
+    """x^i T^k pi^j"""
+    return Surd({(i, k, j, 1): Fraction(1)}, {ONE: Fraction(1)})
 
 
-COSINES = {
-    Fraction(0): surd(1),
-    Fraction(1, 12): _root_sum((1, 4, 6), (1, 4, 2)),
-    Fraction(1, 6): _root_sum((1, 2, 3)),
-    Fraction(1, 5): _root_sum((1, 4, 1), (1, 4, 5)),
-    Fraction(1, 4): _root_sum((1, 2, 2)),
-    Fraction(1, 3): surd(Fraction(1, 2)),
-    Fraction(2, 5): _root_sum((-1, 4, 1), (1, 4, 5)),
-    Fraction(5, 12): _root_sum((1, 4, 6), (-1, 4, 2)),
-    Fraction(1, 2): surd(0),
-}
-"""cos(r pi) for the r in [0, 1/2] at which it is a sum of roots."""
-PI = Surd({(0, 1, 1): Fraction(1)}, {ONE: Fraction(1)})
-UNKNOWN = Surd({(1, 0, 1): Fraction(1)}, {ONE: Fraction(1)})
-
-
-class SurdArithmetic:
-    """The arithmetic of these numbers, as a formula reads it."""
-
-    @staticmethod
-    def number(value: Fraction) -> Surd:
-        return surd(value)
-
-    @staticmethod
-    def pi() -> Surd:
-        return PI
-
-    @staticmethod
-    def sqrt(x: Any) -> Surd:
-        """Of a rational, times pi to an even power."""
-        number = surd(x)
-        for half in range(-4, 5):
-            value = (number / PI ** (2 * half) if half >= 0 else number * PI ** (-2 * half)).rational
-            if value is not None:
-                root = _rational_root(value)
-                return root * PI**half if half >= 0 else root / PI**-half
-        raise NotExactError
-
-    @staticmethod
-    def cos(x: Any) -> Surd:
-        """Of a rational multiple of pi."""
-        turns = (surd(x) / PI).rational
-        if turns is None:
-            raise NotExactError
-        turns = abs(turns) % 2
-        turns = min(turns, 2 - turns)
-        sign, turns = (-1, 1 - turns) if turns > Fraction(1, 2) else (1, turns)
-        if turns not in COSINES:
-            raise NotExactError
-        return sign * COSINES[turns]
-
-    def sin(self, x: Any) -> Surd:
-        return self.cos(PI / 2 - surd(x))
-
-    def tan(self, x: Any) -> Surd:
-        return self.sin(x) / self.cos(x)
-
-    def acos(self, x: Any) -> Surd:
-        """Where x is one of the known cosines."""
-        return self._inverse(x, self.cos, 0, 12)
-
-    def asin(self, x: Any) -> Surd:
-        """Where x is one of the known sines."""
-        return self._inverse(x, self.sin, -6, 6)
-
-    def atan(self, x: Any) -> Surd:
-        """Where x is one of the known tangents."""
-        return self._inverse(x, self.tan, -5, 5)
-
-    @staticmethod
-    def _inverse(x: Any, function: Callable[[Surd], Surd], low: int, high: int) -> Surd:
-        for twelfths in range(low, high + 1):
-            angle = PI * Fraction(twelfths, 12)
-            if function(angle) == x:
-                return angle
-        raise NotExactError
-
-    @staticmethod
-    def _only_at(place: int, x: Any, value: int) -> Surd:
-        if surd(x) != place:
-            raise NotExactError
-        return surd(value)
-
-    def exp(self, x: Any) -> Surd:
-        return self._only_at(0, x, 1)
-
-    def log(self, x: Any) -> Surd:
-        return self._only_at(1, x, 0)
-
-    def sinh(self, x: Any) -> Surd:
-        return self._only_at(0, x, 0)
-
-    def cosh(self, x: Any) -> Surd:
-        return self._only_at(0, x, 1)
-
-    def tanh(self, x: Any) -> Surd:
-        return self._only_at(0, x, 0)
-
-    def power(self, x: Any, exponent: Fraction) -> Surd:
-        """Of a rational that has this root."""
-        value = surd(x).rational
-        if value is None or value < 0 or (value == 0 and exponent < 0):
-            raise NotExactError
-        root = _whole_root(value.numerator, exponent.denominator), _whole_root(value.denominator, exponent.denominator)
-        return surd(Fraction(*root) ** exponent.numerator)
-
-
-def _whole_root(value: int, degree: int) -> int:
-    """The root of a whole number, where it is whole."""
-    high = 1 << -(-value.bit_length() // degree)
-    low = 0
-    while low < high:
-        middle = (low + high + 1) // 2
-        low, high = (middle, high) if middle**degree <= value else (low, middle - 1)
-    if low**degree != value:
-        raise NotExactError
-    return low
-
-
-SURD = SurdArithmetic()
-
-
-def exactly(function: Callable[[Any, Any], Any], place: Any) -> Surd | None:
-    """function(m, place) in these numbers; None where it is none of them."""
-    try:
-        return surd(function(SURD, surd(place)))
-    except NotExactError:
-        return None
+UNKNOWN, QUARTER_TANGENT, PI = _single(1, 0, 0), _single(0, 1, 0), _single(0, 0, 1)
