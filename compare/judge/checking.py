@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from numbers import Real
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -76,18 +77,24 @@ def check(
         raise TypeError(
             f"problem is {tried!r}; a problem with positions and momenta, such as Pendulum(1.0), is accepted."
         )
-    if order is not None and not (isinstance(order, (int, float)) and 0 < order < 100):
+    if order is not None and not _is_order(order):
         raise ValueError(f"order is {order!r}; a positive number is accepted.")
     candidate = Candidate(step, form_of(step, form), _name(step))
     try:
         with deadline(seconds):
-            return _checked(candidate, Claims(order, symplectic, reversible), Scene(tried))
+            return _checked(
+                candidate, Claims(None if order is None else float(order), symplectic, reversible), Scene(tried)
+            )
     except Exhausted as error:
         raise MisuseError(f"{candidate.name} {error} in one step; it does not come to an end.") from None
     except TimeOut:
         raise MisuseError(
             f"{candidate.name} took more than {seconds:g} s; a step that returns is accepted, or a longer time."
         ) from None
+
+
+def _is_order(order: Any) -> bool:
+    return isinstance(order, Real) and not isinstance(order, bool) and 0 < float(order) < 100
 
 
 def _name(step: Callable[..., Any]) -> str:

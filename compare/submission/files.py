@@ -22,7 +22,8 @@ if TYPE_CHECKING:
 __all__ = ["SUFFIXES", "Rows"]
 
 TEXT = (".csv", ".tsv", ".txt", ".dat")
-HDF5 = (".h5", ".hdf5")
+HDF5 = (".h5", ".hdf5", ".nc", ".mat")
+"""HDF5 itself, and what is written in it: netCDF-4, and MATLAB's files since version 7.3."""
 SUFFIXES = (*TEXT, ".npy", ".npz", *HDF5)
 
 

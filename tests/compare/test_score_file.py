@@ -90,6 +90,8 @@ def array_files(folder: Path) -> None:
     with h5py.File(folder / "group.h5", "w") as file:
         file["run/1/t"], file["run/1/theta"], file["run/1/omega"] = T, Y[:, 0].reshape(-1, 1), Y[:, 1].reshape(1, -1)
         file["note"] = "ours"
+    with h5py.File(folder / "matlab.mat", "w") as file:
+        file["t"], file["theta"], file["omega"] = T[None], Y[None, :, 0], Y[None, :, 1]
     with h5py.File(folder / "compound.hdf5", "w") as file:
         file["run"] = np.array(ROWS, dtype=[("t", float), ("theta", float), ("omega", float)])
     with h5py.File(folder / "strings.h5", "w") as file:
@@ -99,7 +101,7 @@ def array_files(folder: Path) -> None:
 
 ARRAYS = (
     "table.npy", "by_column.npy", "big_endian.npy", "fields.npy", "strings.npy",
-    "arrays.npz", "packed.npz", "group.h5", "compound.hdf5", "strings.h5",
+    "arrays.npz", "packed.npz", "group.h5", "matlab.mat", "compound.hdf5", "strings.h5",
 )  # fmt: skip
 
 
