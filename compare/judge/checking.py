@@ -94,7 +94,7 @@ def check(
 
 
 def _is_order(order: Any) -> bool:
-    return isinstance(order, Real) and not isinstance(order, bool) and 0 < float(order) < 100
+    return type(order) is not bool and isinstance(order, Real) and 0 < float(order) < 100
 
 
 def _name(step: Callable[..., Any]) -> str:
