@@ -98,7 +98,7 @@ def study(
 def facts(limit: int) -> dict[str, Any]:
     """How solvers are called, for the header of a table."""
     return {
-        "precision": "float64",
+        "precision": "float64; a solver is given parameters and starts rounded to it",
         "tolerance": "rtol, and atol = rtol; where a solver takes a step, rtol^(1/order)/rate",
         "evaluations": f"counted in the right-hand side itself; a solver is stopped after {limit}",
         "seconds": "the shortest of three calls, or one where it is long; what compiles has compiled before",
