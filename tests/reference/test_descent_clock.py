@@ -6,7 +6,7 @@ import random
 from fractions import Fraction
 
 import pytest
-from flint import acb, arb, ctx
+from flint import acb, arb, arb_series, ctx
 from independent import fraction
 from independent_descent import arc_length, passage
 from mpmath import mp
@@ -97,6 +97,22 @@ def test_near_the_start_a_wide_ball_holds_the_values_of_the_narrow_ones(name):
             assert wide.contains(value) or wide.overlaps(value)
             assert value.overlaps(slide.slowness(ComplexBall(analytic=True), u + acb(arb(0, 1e-40), arb(0, 1e-40))))
         assert wide.real.contains(slide.slowness(ComplexBall(analytic=True), acb(arb(0))).real.mid())
+
+
+@every_slide
+def test_the_series_at_the_start_claims_no_more_terms_than_it_has(name):
+    slide = SLIDES[name]
+    found = []
+    with ctx.workprec(200):
+        for terms in (12, 40):
+            with SERIES.of_length(terms):
+                found.append(slide.slowness(SERIES, arb_series([arb(0), arb(1) / 64])))
+        short, long = found
+        assert short.prec <= 10
+        for few, many in zip(short.coeffs(), long.coeffs(), strict=False):
+            assert few.overlaps(many)
+        assert len(short.coeffs()) >= 1
+        assert all(coefficient.contains(0) for coefficient in long.coeffs()[len(short.coeffs()) : short.prec])
 
 
 def test_a_primitive_is_no_number_beyond_what_its_series_serve():

@@ -104,6 +104,7 @@ def _radius(u: acb) -> arb:
 
 
 def _shifted(series: Any, places: int, unit: arb) -> arb_series:
-    """The series divided by (unit x)^places, without the coefficients before that."""
-    coefficients = series.coeffs() if isinstance(series, arb_series) else []
-    return arb_series([value / unit**places for value in coefficients[places:]])
+    """The series divided by (unit x)^places, without the coefficients before that, and known that much less far."""
+    if not isinstance(series, arb_series):
+        return arb_series([])
+    return arb_series([value / unit**places for value in series.coeffs()[places:]], series.prec - places)
