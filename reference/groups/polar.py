@@ -115,7 +115,7 @@ TUNNEL_MOTION = Layout(
 LAYOUTS = (FAMILY, MOTION, BOUNDARY, TUNNEL_FAMILY, TUNNEL_MOTION)
 
 LOWEST = (0.01, *(k / 20 for k in range(1, 20)), 0.99)
-ENDS = tuple((z, phi) for z in (1.0, 0.75, 0.5, 0.25) for phi in (0.25, 0.5, 1.0, 1.5))
+ENDS = tuple((z, phi) for z in (1.0, 0.75, 0.5, 0.25) for phi in (0.25, 1.0, 1.5))
 
 
 def core() -> tuple[Group, ...]:
