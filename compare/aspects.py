@@ -69,6 +69,7 @@ _CENTRAL = Aspect(
 )
 _ASPECTS = {
     "pendulum": Aspect(angle="rad"),
+    "linear pendulum": Aspect(angle="rad"),
     "tautochrone": Aspect(trial=Trial(states=((-2.0, 2.0), (-1.0, 1.0)), step=(0.001, 0.01))),
     "descent": Aspect(trial=Trial(states=((0.2, 0.5), (0.0, 0.5)), step=(0.001, 0.005))),
     "polar": _CENTRAL,
@@ -99,4 +100,6 @@ def period_of(problem: Problem) -> float:
         return float(problem.certified("period"))
     if problem.name in {"polar", "tunnel"}:
         return 2 * float(problem.certified("descent_time"))
+    if problem.name == "cycloid":
+        return 2 * math.pi / problem.rate()
     return math.nan

@@ -17,8 +17,8 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from compare.contract import Method
+    from compare.course import Course
     from compare.precision import Precision
-    from compare.scores import Course
     from reference.problem import Problem
 
 __all__ = ["FLOOR_FACTOR", "floors_of"]
@@ -27,12 +27,12 @@ FLOOR_FACTOR = 10
 
 
 def floors_of(method: Method, courses: Sequence[Course], errors: Sequence[np.ndarray], fmt: Precision) -> list[bool]:
-    """Which courses are on the floor, given the errors of their marches; each problem's are in order of N.
+    """Which courses are on the floor, given the errors [samples, state] of their marches, each problem's by N.
 
     A neighbour is marched only where the error is so small that it may be rounding, and no coarser course is on the
     floor: most are not, and those that are have few steps.
     """
-    largest = [float(np.max(np.abs(error[:, 0]))) for error in errors]
+    largest = [float(np.max(course.place(error))) for course, error in zip(courses, errors, strict=True)]
     doubtful = [size <= FLOOR_FACTOR * course.roundings for size, course in zip(largest, courses, strict=True)]
     places: dict[Problem, list[int]] = {}
     for i, course in enumerate(courses):
@@ -42,7 +42,7 @@ def floors_of(method: Method, courses: Sequence[Course], errors: Sequence[np.nda
         neighbours = [courses[i].neighbour for i in waiting]
         marches = march(method, [neighbour.lane for neighbour in neighbours], fmt)
         for i, neighbour, result in zip(waiting, neighbours, marches, strict=True):
-            noise = float(np.max(np.abs(errors[i] - neighbour.errors(result))[:, 0]))
+            noise = float(np.max(courses[i].place(errors[i] - neighbour.errors(result.states))))
             doubtful[i] = False
             if largest[i] <= FLOOR_FACTOR * noise and noise <= courses[i].roundings:
                 members = places[courses[i].problem]

@@ -28,12 +28,14 @@ class Lane:
     Attributes:
         h: the exact step size, a number of the format.
         samples: the step numbers, increasing and at most n, at which the state is kept.
+        start: where it starts, numbers of the format; at the problem's start if None.  The level stays the problem's.
     """
 
     problem: Problem
     n: int
     h: Fraction
     samples: tuple[int, ...]
+    start: tuple[Fraction, ...] | None = None
 
 
 @dataclass(frozen=True)

@@ -17,24 +17,66 @@ Columns = dict[str, tuple[str, ...]]
 """The fields of each table of a study, by the table's name."""
 
 COLUMNS: Columns = {
-    "error_vs_n": ("method", "n", "h", "theta0", "max_error", "end_error", "local_order", "floor", "evaluations"),
-    "order": ("method", "theta0", "declared_order", "fitted_order", "spread", "cells_used", "n_range"),
+    "error_vs_n": (
+        "method",
+        "n",
+        "h",
+        "case",
+        "max_error",
+        "end_error",
+        "local_order",
+        "floor",
+        "evaluations",
+        "rms_error",
+        "max_velocity_error",
+        "end_velocity_error",
+        "rms_velocity_error",
+        "digits",
+        "jacobians",
+    ),
+    "order": ("method", "case", "declared_order", "fitted_order", "spread", "cells_used", "n_range"),
     "energy_drift": (
         "method",
         "n",
         "h",
-        "theta0",
+        "case",
         "max_drift_above_rest",
         "max_drift_relative",
         "slope_per_period",
         "slope_interval",
     ),
+    "phase": (
+        "method",
+        "n",
+        "h",
+        "case",
+        "max_phase_error",
+        "end_phase_error",
+        "max_amplitude_error",
+        "end_amplitude_error",
+        "lost",
+    ),
+    "growth": ("method", "n", "h", "case", "quantity", "exponent", "interval", "law", "windows", "floor"),
+    "period": ("method", "n", "h", "case", "period", "relative_error"),
+    "defects": ("method", "n", "h", "case", "symplecticity", "reversibility"),
 }
 
 
 def rows(study: Any, table: str, columns: Columns = COLUMNS) -> list[dict[str, Any]]:
-    """One table of the study as plain rows; a number that is not finite is None."""
-    return [{key: _plain(getattr(record, key)) for key in columns[table]} for record in getattr(study, table)]
+    """One table of the study as plain rows; a number that is not finite is None, and so is an input that has none."""
+    keys = _fields(study, columns[table])
+    return [{key: _plain(getattr(record, key, None)) for key in keys} for record in getattr(study, table)]
+
+
+def _fields(study: Any, keys: Iterable[str]) -> tuple[str, ...]:
+    """The keys, with the inputs of the study's cases in the place of a "case"."""
+    inputs = tuple(dict.fromkeys(name for case in getattr(study, "cases", ()) for name, _ in case.inputs))
+    return tuple(name for key in keys for name in (inputs if key == "case" else (key,)))
+
+
+def _present(study: Any, columns: Columns) -> list[str]:
+    """The tables that the study has; one that was not asked for is None."""
+    return [table for table in columns if getattr(study, table) is not None]
 
 
 def json_text(study: Any, columns: Columns = COLUMNS) -> str:
@@ -43,7 +85,7 @@ def json_text(study: Any, columns: Columns = COLUMNS) -> str:
     A number that is not finite is null, since JSON has no such numbers.
     """
     heads = [f'  "{name}": {_json(getattr(study, name))},' for name in ("problem", "parameters", "reference", "engine")]
-    tables = [f'    "{table}": {_json_rows(rows(study, table, columns))}' for table in columns]
+    tables = [f'    "{table}": {_json_rows(rows(study, table, columns))}' for table in _present(study, columns)]
     return "\n".join(["{", *heads, '  "tables": {', ",\n".join(tables), "  }", "}", ""])
 
 
@@ -52,7 +94,10 @@ def csv_text(study: Any, columns: Columns = COLUMNS) -> dict[str, str]:
 
     A number that is not finite, or not known, is an empty field; a range of N is two fields.
     """
-    return {table: _csv(table, rows(study, table, columns), columns[table]) for table in columns}
+    return {
+        table: _csv(table, rows(study, table, columns), _fields(study, columns[table]))
+        for table in _present(study, columns)
+    }
 
 
 def _csv(table: str, found: Iterable[dict[str, Any]], keys: tuple[str, ...]) -> str:

@@ -18,6 +18,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from compare.aspects import conserves
 from compare.lane import Lane, March, StartInvariant, grain_of, sample_steps
 from compare.trace import compile_block, entry_rows, plain_block
 
@@ -62,7 +63,7 @@ def march(method: Method, lanes: Sequence[Lane], fmt: Precision) -> list[March]:
     """March every lane, and return what each gave, in order.
 
     Raises:
-        ValueError: the method needs a separable problem and this one is not.
+        ValueError: the problem lacks what the method needs: positions apart from momenta, or an invariant.
         TraceError: the compiled step is not the plain one.
     """
     results: dict[int, March] = {}
@@ -95,7 +96,9 @@ def _groups(method: Method, lanes: Sequence[Lane], fmt: Precision) -> Iterator[t
     groups: dict[Any, list[int]] = defaultdict(list)
     for i, lane in enumerate(lanes):
         if method.separable_only and not getattr(lane.problem, "positions", 0):
-            raise ValueError(f"{method.name} splits kicks from drifts, and {lane.problem.name} is not separable.")
+            raise ValueError(f"{method.name} needs positions apart from momenta; {lane.problem.name} is not separable.")
+        if method.family == "conservative" and not conserves(lane.problem):
+            raise ValueError(f"{method.name} keeps an invariant, and {lane.problem.name} has none.")
         iterations = iterations_for(method, lane.problem, float(lane.h), fmt.bits)
         grain = grain_of(lane.n)
         if any(step % grain for step in lane.samples):
@@ -188,7 +191,8 @@ class _Group:
     def _start(self) -> tuple[np.ndarray, np.ndarray]:
         """Input rows and parameter rows of the padded lanes."""
         padded = [*self.lanes, *[self.lanes[-1]] * (self._width(0) - len(self.lanes))]
-        starts = [self.fmt.array(lane.problem.start[i] for lane in padded) for i in range(self.dimension)]
+        begins = [lane.start or lane.problem.start for lane in padded]
+        starts = [self.fmt.array(begin[i] for begin in begins) for i in range(self.dimension)]
         names = list(padded[0].problem.parameters)
         invariants = {lane.problem: self.fmt.number(StartInvariant(lane.problem)) for lane in padded}
         parameters = [

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from fractions import Fraction
+import re
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -15,7 +15,7 @@ from compare.ink import GREY, Ink, inks, label_right, saved, style
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
 
-    from compare.records import Cell, Study, Trace
+    from compare.records import Case, Cell, Study, Trace
 
 __all__ = ["FIGURES", "draw_curves", "figures", "files", "wide_figure"]
 
@@ -23,6 +23,11 @@ _PANEL_COLUMNS = 4
 _FAINTEST_DRIFT = 1e-17
 _BESIDE = 4.0
 _ANGLE_ERROR = "largest error |θ − θ_exact|  [rad]"
+_SYMBOLS = {"theta0": "θ₀", "omega0": "ω₀", "theta": "θ", "phi": "φ"}
+
+
+_NAMES = re.compile(rf"\b({'|'.join(_SYMBOLS)})\b")
+_SPECIAL = re.compile(r"[^\w.+-]+")
 
 
 def files(study: Study) -> dict[str, bytes]:
@@ -33,36 +38,43 @@ def files(study: Study) -> dict[str, bytes]:
 
 def figures(study: Study) -> Iterator[tuple[str, Figure]]:
     """Every figure with its name; one set an amplitude where the study has several."""
-    amplitudes = list(dict.fromkeys(cell.theta0 for cell in study.error_vs_n))
-    for theta0 in amplitudes:
-        suffix = f"-theta0-{theta0!r}" if len(amplitudes) > 1 else ""
+    for case in study.cases:
+        told = "-".join(f"{name}-{value}" for name, value in case.inputs)
+        suffix = f"-{_SPECIAL.sub('-', told)}" if len(study.cases) > 1 else ""
         for name, draw in FIGURES.items():
-            yield f"{study.problem}-{name}{suffix}", draw(study, theta0)
+            if _shows(case, name):
+                yield f"{study.problem}-{name}{suffix}", draw(study, case)
 
 
-def error_figure(study: Study, theta0: float) -> Figure:
+def _shows(case: Case, name: str) -> bool:
+    """Whether the case has what the figure shows: something conserved, or a velocity."""
+    return {"energy-drift": case.drift is not None, "phase-portrait": bool(case.axes)}.get(name, True)
+
+
+def error_figure(study: Study, case: Case) -> Figure:
     """Largest error against N, with the declared orders as dashed slopes; hollow grey cells are rounding."""
-    figure, axes = wide_figure(f"Error against number of steps, θ₀ = {theta0!r} rad", top=0.84)
-    curves = _curves(study, theta0)
+    figure, axes = wide_figure(f"Error against number of steps, {_label(case)}", 0.84, _error_label(case))
+    curves = _curves(study, case)
     draw_curves(axes, curves, _ink(study), lambda cell: cell.n)
     _draw_slopes(axes, study, curves)
     axes.set_xlabel("number of steps N")
-    _add_step_sizes(axes, float(Fraction(study.parameters["t_end"])))
+    _add_step_sizes(axes, curves, case.step)
     return figure
 
 
-def work_figure(study: Study, theta0: float) -> Figure:
+def work_figure(study: Study, case: Case) -> Figure:
     """Largest error against evaluations of the right-hand side."""
-    figure, axes = wide_figure(f"Work and precision, θ₀ = {theta0!r} rad", top=0.92)
-    draw_curves(axes, _curves(study, theta0), _ink(study), lambda cell: cell.evaluations)
+    figure, axes = wide_figure(f"Work and precision, {_label(case)}", 0.92, _error_label(case))
+    draw_curves(axes, _curves(study, case), _ink(study), lambda cell: cell.evaluations)
     axes.set_xlabel("evaluations of the right-hand side")
     return figure
 
 
-def drift_figure(study: Study, theta0: float) -> Figure:
+def drift_figure(study: Study, case: Case) -> Figure:
     """|Energy drift| over time, a panel a method on one logarithmic scale, with its running maximum."""
-    traces = _traces(study, theta0)
-    figure, panels = _panel_figure(traces, "Energy drift over time", theta0)
+    traces = _traces(study, case)
+    name, change = case.drift or ("", "")
+    figure, panels = _panel_figure(traces, f"{name} drift over time", case)
     ink = _ink(study)
     finite = [abs(d) for trace in traces for d in trace.drift if math.isfinite(d) and d]
     low = max(min(finite, default=1.0), _FAINTEST_DRIFT)
@@ -73,29 +85,39 @@ def drift_figure(study: Study, theta0: float) -> Figure:
         axes.plot(trace.time, np.fmax.accumulate(size), color=ink[trace.method].colour, linewidth=2)
         axes.set_yscale("log")
         axes.grid(visible=True)
-    figure.supxlabel("time t [s];  thick: largest so far")
-    figure.supylabel("|E − E₀| / (E₀ − E_min)")
+    figure.supxlabel(f"time t{f' [{case.step}]' if case.step else ''};  thick: largest so far")
+    figure.supylabel("|E − E₀| / (E₀ − E_min)" if name == "Energy" else f"|{change}|")
     return figure
 
 
-def phase_figure(study: Study, theta0: float) -> Figure:
-    """The orbit in the plane of angle and velocity, a panel a method, over the exact one in grey."""
-    traces = _traces(study, theta0)
-    figure, panels = _panel_figure(traces, "Phase portrait", theta0)
+def phase_figure(study: Study, case: Case) -> Figure:
+    """The orbit in the plane of place and velocity, a panel a method, over the exact one in grey."""
+    traces = _traces(study, case)
+    figure, panels = _panel_figure(traces, "Phase portrait", case)
     ink = _ink(study)
-    exact = next(orbit for orbit in study.exact if orbit.theta0 == theta0)
+    exact = next(orbit for orbit in study.exact if orbit.case == case).states
     for trace, axes in zip(traces, panels, strict=True):
-        axes.plot(exact.theta, exact.omega, color="#C8C8C8", linewidth=5, solid_capstyle="round")
-        axes.plot(trace.theta, trace.omega, color=ink[trace.method].colour, linewidth=1.1)
-        axes.set_xlim(_framed(exact.theta))
-        axes.set_ylim(_framed(exact.omega))
+        axes.plot(exact[:, 0], exact[:, 1], color="#C8C8C8", linewidth=5, solid_capstyle="round")
+        axes.plot(trace.states[:, 0], trace.states[:, 1], color=ink[trace.method].colour, linewidth=1.1)
+        axes.set_xlim(_framed(exact[:, 0]))
+        axes.set_ylim(_framed(exact[:, 1]))
         axes.grid(visible=True)
-    figure.supxlabel("angle θ [rad];  thick grey: exact orbit")
-    figure.supylabel("angular velocity ω [rad/s]")
+    figure.supxlabel(f"{case.axes[0]};  thick grey: exact orbit")
+    figure.supylabel(case.axes[1])
     return figure
 
 
-FIGURES: dict[str, Callable[[Study, float], Figure]] = {
+def _label(case: Case) -> str:
+    """The case's label, with the symbols of its inputs."""
+    return _NAMES.sub(lambda found: _SYMBOLS[found[0]], case.label)
+
+
+def _error_label(case: Case) -> str:
+    """What an axis of errors shows."""
+    return _ANGLE_ERROR if case.unit == "rad" else f"largest {case.error.rstrip(',')}"
+
+
+FIGURES: dict[str, Callable[[Study, Case], Figure]] = {
     "error-vs-n": error_figure,
     "work-precision": work_figure,
     "energy-drift": drift_figure,
@@ -109,18 +131,18 @@ def _ink(study: Study) -> dict[str, Ink]:
     return inks(sorted(dict.fromkeys(cell.method for cell in study.error_vs_n), key=lambda m: declared.get(m, 0)))
 
 
-def _curves(study: Study, theta0: float) -> dict[str, list[Cell]]:
+def _curves(study: Study, case: Case) -> dict[str, list[Cell]]:
     """The cells of each method that a logarithmic axis can show, by increasing N."""
     curves: dict[str, list[Cell]] = {}
     for cell in sorted(study.error_vs_n, key=lambda cell: cell.n):
-        if cell.theta0 == theta0 and math.isfinite(cell.max_error) and cell.max_error > 0:
+        if cell.case == case and math.isfinite(cell.max_error) and cell.max_error > 0:
             curves.setdefault(cell.method, []).append(cell)
     return curves
 
 
-def _traces(study: Study, theta0: float) -> list[Trace]:
+def _traces(study: Study, case: Case) -> list[Trace]:
     order = list(_ink(study))
-    found = [trace for trace in study.traces if trace.theta0 == theta0]
+    found = [trace for trace in study.traces if trace.case == case]
     return sorted(found, key=lambda trace: order.index(trace.method))
 
 
@@ -222,17 +244,21 @@ def _draw_slope(axes: Any, ends: Sequence[tuple[float, float]], order: int) -> N
     )
 
 
-def _add_step_sizes(axes: Any, t_end: float) -> None:
+def _add_step_sizes(axes: Any, curves: dict[str, list[Cell]], unit: str) -> None:
     """The step size along the top, running down as N runs up."""
+    cells = [cell for cells in curves.values() for cell in cells]
+    if not cells:
+        return
+    t_end = float(f"{cells[0].n * cells[0].h:.12g}")
     top = axes.twiny()
     top.set_xscale("log")
     top.set_xlim([t_end / n for n in axes.get_xlim()])
     _set_ticks(top.xaxis)
     top.spines["top"].set_visible(True)
-    top.set_xlabel(f"step size h = {t_end:g}/N [s]", color=GREY)
+    top.set_xlabel(f"step size h = {t_end:g}/N{f' [{unit}]' if unit else ''}", color=GREY)
 
 
-def _panel_figure(traces: Sequence[Trace], title: str, theta0: float) -> tuple[Figure, list[Any]]:
+def _panel_figure(traces: Sequence[Trace], title: str, case: Case) -> tuple[Figure, list[Any]]:
     """A panel a trace, all on the same axes."""
     columns = max(min(_PANEL_COLUMNS, len(traces)), 1)
     rows = max(math.ceil(len(traces) / columns), 1)
@@ -245,7 +271,7 @@ def _panel_figure(traces: Sequence[Trace], title: str, theta0: float) -> tuple[F
     for trace, axes in zip(traces, panels, strict=False):
         axes.set_title(trace.method if len(steps) == 1 else f"{trace.method}, N = {trace.n}", fontsize=10)
     at = f", N = {min(steps)}" if len(steps) == 1 else ""
-    figure.suptitle(f"{title}, θ₀ = {theta0!r} rad{at}", fontsize=13, fontweight="bold", x=0.01, ha="left")
+    figure.suptitle(f"{title}, {_label(case)}{at}", fontsize=13, fontweight="bold", x=0.01, ha="left")
     return figure, panels[: len(traces)]
 
 

@@ -5,38 +5,114 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import Any
 
-__all__ = ["Cell", "Drift", "FittedOrder", "Study", "Trace"]
+__all__ = [
+    "Case",
+    "Cell",
+    "Defect",
+    "Drift",
+    "FittedOrder",
+    "Growth",
+    "OfCase",
+    "OwnPeriod",
+    "Phase",
+    "Study",
+    "Trace",
+]
 
 
 @dataclass(frozen=True)
-class Cell:
+class Case:
+    """A problem of a study in a few words.
+
+    Attributes:
+        problem: the problem, as Python would make it.
+        inputs: what tells it from others of its family, by name, such as (("theta0", 1.0),).
+        label: the same in words, such as "theta0 = 1.0 rad".
+        error: what an error of the place is.
+        unit: its unit; "" where it is relative to the largest value of the place.
+        samples: what the states are compared at: "times" or "points".
+        step: the unit of the step size; "" for a number.
+        drift: what the conserved quantity is called and its change, or None where there is none.
+        energy: whether it is an energy that has a value of its own beside that above rest.
+        cycle: what the slope of the drift is per: "period", or a unit of time where there is none.
+        axes: what the axes of a phase portrait are called; () where there is no velocity.
+    """
+
+    problem: str
+    inputs: tuple[tuple[str, Any], ...]
+    label: str
+    error: str = "|theta - exact|"
+    unit: str = "rad"
+    samples: str = "times"
+    step: str = "s"
+    drift: tuple[str, str] | None = ("Energy", "(E - E0)/(E0 - Emin)")
+    energy: bool = True
+    cycle: str = "period"
+    axes: tuple[str, ...] = ("angle θ [rad]", "angular velocity ω [rad/s]")
+
+
+class OfCase:
+    """A record of one case, whose inputs can be read as attributes: ``cell.theta0``."""
+
+    case: Case
+
+    def __getattr__(self, name: str) -> Any:
+        """An input of the case.
+
+        Raises:
+            AttributeError: it has none of this name.
+        """
+        if name != "case" and not name.startswith("__"):
+            for known, value in self.case.inputs:
+                if known == name:
+                    return value
+        raise AttributeError(f"{type(self).__name__} has no attribute {name!r}")
+
+
+@dataclass(frozen=True)
+class Cell(OfCase):
     """The error of one method at one number of steps.
+
+    Errors of the place are in the case's unit; those of the velocity likewise, per second, or relative to its largest
+    value.  NaN where the case has no velocity.
 
     Attributes:
         method: the method's name.
         n: number of steps.
-        h: step size in s, as the double that the march used.
-        theta0: amplitude in rad.
-        max_error: largest |theta - exact| over the sample times, in rad.
-        end_error: |theta - exact| at the last sample time, in rad.
-        local_order: log2-slope of max_error from the previous N of the same method and amplitude, or None.
+        h: step size in s, or in the case's own unit, as the double that the march used.
+        case: the problem.
+        max_error: largest error of the place over the samples.
+        end_error: its error at the last sample.
+        local_order: log2-slope of max_error from the previous N of the same method and case, or None.
         floor: True where the cell is rounding, not order: within ten times the rounding floor.
         evaluations: evaluations of the right-hand side (or force) over the march.
+        rms_error: root mean square over the samples of the error of the place.
+        max_velocity_error: largest error of the velocity over the samples.
+        end_velocity_error: its error at the last sample.
+        rms_velocity_error: root mean square over the samples of the error of the velocity.
+        digits: correct digits: -log10 of max_error over the largest value of the place, at most what the format holds.
+        jacobians: evaluations of the Jacobian, or of the invariant's gradient, over the march.
     """
 
     method: str
     n: int
     h: float
-    theta0: float
+    case: Case
     max_error: float
     end_error: float
     local_order: float | None
     floor: bool
     evaluations: int
+    rms_error: float
+    max_velocity_error: float
+    end_velocity_error: float
+    rms_velocity_error: float
+    digits: float
+    jacobians: int
 
 
 @dataclass(frozen=True)
-class FittedOrder:
+class FittedOrder(OfCase):
     """One slope of log(max_error) against log(h) over the asymptotic range; None where it has fewer than three cells.
 
     Attributes:
@@ -45,7 +121,7 @@ class FittedOrder:
     """
 
     method: str
-    theta0: float
+    case: Case
     declared_order: int
     fitted_order: float | None
     spread: float | None
@@ -54,20 +130,21 @@ class FittedOrder:
 
 
 @dataclass(frozen=True)
-class Drift:
-    """The energy drift of one method at one number of steps.
+class Drift(OfCase):
+    """The drift of the energy, or of another invariant, of one method at one number of steps.
 
     Attributes:
         max_drift_above_rest: max over every step of |E - E0| / (E0 - Emin).
         max_drift_relative: max over every step of |E - E0| / |E0|.
-        slope_per_period: least-squares slope of (E - E0)/(E0 - Emin) over the sample times, per period.
+        slope_per_period: least-squares slope of (E - E0)/(E0 - Emin) over the sample times, per period, or per unit of
+            time where the motion has no period: the case says which.
         slope_interval: half-width of its 95 % interval.
     """
 
     method: str
     n: int
     h: float
-    theta0: float
+    case: Case
     max_drift_above_rest: float
     max_drift_relative: float
     slope_per_period: float
@@ -75,22 +152,104 @@ class Drift:
 
 
 @dataclass(frozen=True)
-class Trace:
-    """A trajectory for plotting: arrays of length S, at one method, N and amplitude.
+class Phase(OfCase):
+    """The error of one method at one number of steps as one of phase and one of amplitude.
 
     Attributes:
-        time: sample times in s.
-        theta: angle in rad.
-        omega: angular velocity in rad/s.
-        drift: (E - E0)/(E0 - Emin).
+        max_phase_error: largest |phase - exact| over the samples, in rad, whole turns counted; 2 pi a period.
+        end_phase_error: phase - exact at the last sample, in rad: positive where the march is ahead.
+        max_amplitude_error: largest |amplitude - exact| over the samples, in the place's units; NaN where it has none.
+        end_amplitude_error: amplitude - exact at the last sample.
+        lost: samples whose state is on no orbit of the exact motion's kind, and has no phase.
     """
 
     method: str
     n: int
-    theta0: float
+    h: float
+    case: Case
+    max_phase_error: float
+    end_phase_error: float
+    max_amplitude_error: float
+    end_amplitude_error: float
+    lost: int
+
+
+@dataclass(frozen=True)
+class Growth(OfCase):
+    """How one error of one method at one number of steps grows: as t to the power of the exponent.
+
+    Attributes:
+        quantity: "place", "phase" or "energy".
+        exponent: of t; NaN where the march has too few periods or an error is not a number.
+        interval: half-width of its 95 % interval.
+        law: "bounded", "sqrt t", "t", "t^3/2" or "t^2"; "" where none is clear.
+        windows: the windows of time that were used, each twice as long as the one before it.
+        floor: whether the error of the place is rounding.
+    """
+
+    method: str
+    n: int
+    h: float
+    case: Case
+    quantity: str
+    exponent: float
+    interval: float
+    law: str
+    windows: int
+    floor: bool
+
+
+@dataclass(frozen=True)
+class OwnPeriod(OfCase):
+    """The period of one method's own motion at one step size, from one passage through the bottom to the next.
+
+    Attributes:
+        period: in the units of time; NaN where two passages were not found.
+        relative_error: period/exact - 1.
+    """
+
+    method: str
+    n: int
+    h: float
+    case: Case
+    period: float
+    relative_error: float
+
+
+@dataclass(frozen=True)
+class Defect(OfCase):
+    """What one method at one step size keeps of the geometry of the exact motion.
+
+    Attributes:
+        symplecticity: largest |det d(y_{n+1})/d(y_n) - 1| in position and momentum, at states of the exact motion; NaN
+            for a method that carries more than the state from step to step, or a problem without momenta.
+        reversibility: the distance from the start after n steps forward, the velocity turned round, and n steps back,
+            each component over its largest value.
+    """
+
+    method: str
+    n: int
+    h: float
+    case: Case
+    symplecticity: float
+    reversibility: float
+
+
+@dataclass(frozen=True)
+class Trace(OfCase):
+    """A trajectory for plotting: arrays of length S, at one method, N and case.
+
+    Attributes:
+        time: sample times in s, or in the case's own unit.
+        states: [S, state].
+        drift: (E - E0)/(E0 - Emin); NaN where nothing is conserved.
+    """
+
+    method: str
+    n: int
+    case: Case
     time: Any
-    theta: Any
-    omega: Any
+    states: Any
     drift: Any
 
 
@@ -103,14 +262,25 @@ class Study:
         parameters: its parameters and the study's, such as {"theta0": [1.0], "g": 9.81, "length": 1.0, "t_end": 10.0}.
         reference: where the truth comes from: routes, version, and what was compared.
         engine: how the numbers were marched: precision, compiler, what a rounding floor belongs to.
+        cases: the problems.
+        scores: what is to be shown, of ``compare.wanted.SCORES``.
+        notes: sentences on what could not be scored.
+        phase, growth, period, defects: None where they were not asked for.
     """
 
     problem: str
     parameters: dict[str, Any]
     reference: dict[str, Any]
     engine: dict[str, Any]
+    cases: tuple[Case, ...]
     error_vs_n: tuple[Cell, ...]
     order: tuple[FittedOrder, ...]
     energy_drift: tuple[Drift, ...]
+    scores: tuple[str, ...] = ("error", "drift")
+    notes: tuple[str, ...] = ()
+    phase: tuple[Phase, ...] | None = None
+    growth: tuple[Growth, ...] | None = None
+    period: tuple[OwnPeriod, ...] | None = None
+    defects: tuple[Defect, ...] | None = None
     traces: tuple[Trace, ...] = field(default=(), repr=False)
     exact: tuple[Trace, ...] = field(default=(), repr=False)

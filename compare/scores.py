@@ -13,6 +13,7 @@ import numpy as np
 from compare.aspects import conserves, period_of
 from compare.course import SAMPLES, Course, proven
 from compare.fit import fit_order, slope_with_interval, student_95
+from compare.floors import floors_of
 from compare.march import march
 from compare.records import Cell, Drift
 
@@ -26,61 +27,61 @@ if TYPE_CHECKING:
 __all__ = [
     "SAMPLES",
     "Course",
+    "drifts",
     "fit_order",
     "proven",
+    "score_courses",
     "score_errors",
     "score_method",
     "slope_with_interval",
     "student_95",
 ]
 
-FLOOR_FACTOR = 10
-
 
 def score_method(method: Method, courses: Sequence[Course], fmt: Precision) -> tuple[list[Cell], list[Drift]]:
-    """March a method over every course and score it: a Cell a course, and a Drift where something is conserved.
-
-    Each course is marched beside its neighbour: their errors differ by rounding alone, as the method and the problem
-    carry it along.  A cell within FLOOR_FACTOR of that difference is marked as floor, and so is every finer one; but a
-    difference that N roundings cannot account for is of a step too large, not of rounding.
-    """
-    cells, marches = _scored(method, courses, fmt)
-    found = zip(courses, marches, strict=True)
-    with np.errstate(over="ignore", invalid="ignore"):
-        drifts = [_drift(method, course, result) for course, result in found if conserves(course.problem)]
-    return cells, drifts
+    """March a method over every course and score it: a Cell a course, and a Drift where something is conserved."""
+    cells, marches = score_courses(method, courses, fmt)
+    return cells, drifts(method, courses, marches)
 
 
 def score_errors(method: Method, courses: Sequence[Course], fmt: Precision) -> list[Cell]:
     """The Cells of ``score_method``, with errors in the units of the state itself."""
-    return _scored(method, courses, fmt, relative=False)[0]
+    return score_courses(method, courses, fmt, relative=False)[0]
 
 
-def _scored(
+def score_courses(
     method: Method, courses: Sequence[Course], fmt: Precision, *, relative: bool = True
 ) -> tuple[list[Cell], list[March]]:
+    """March a method over every course: a Cell a course, and what the march gave.
+
+    Errors are in each case's unit, or where they are not ``relative`` in the units of the state itself.
+    """
     # A march that overflows is scored as what it is, infinite or not a number; NumPy need not warn of it besides.
     with np.errstate(over="ignore", invalid="ignore"):
-        marches = march(method, [lane for course in courses for lane in (course.lane, course.neighbour.lane)], fmt)
-        found, neighbours = marches[::2], marches[1::2]
+        marches = march(method, [course.lane for course in courses], fmt)
+        errors = [course.errors(result.states) for course, result in zip(courses, marches, strict=True)]
+        floors = floors_of(method, courses, errors, fmt)
         cells: list[Cell] = []
         before: Course | None = None
-        for course, result, other in zip(courses, found, neighbours, strict=True):
+        for course, result, signed, floor in zip(courses, marches, errors, floors, strict=True):
             previous = cells[-1] if before is not None and before.problem == course.problem else None
-            cells.append(_cell(method, course, (result, other), previous, course.units if relative else None))
+            cells.append(_cell(method, course, result, _Sizes(course, signed, relative=relative), previous, floor))
             before = course
-    return cells, found
+    return cells, marches
 
 
-def _cell(
-    method: Method, course: Course, marches: tuple[March, March], previous: Cell | None, units: np.ndarray | None
-) -> Cell:
-    aspect, units = course.aspect, np.ones_like(course.sizes) if units is None else units
-    signed = course.errors(marches[0].states)
-    errors = np.abs(signed) / units
-    noise = np.abs(signed - course.neighbour.errors(marches[1].states)) / units
-    place, velocity = (_Norms(errors[:, list(components)]) for components in (aspect.places, aspect.rates))
-    rounding = _Norms(noise[:, list(aspect.places)]).largest
+def drifts(method: Method, courses: Sequence[Course], marches: Sequence[March]) -> list[Drift]:
+    """The drift of what is conserved, for each march of a problem that conserves something."""
+    with np.errstate(over="ignore", invalid="ignore"):
+        return [
+            _drift(method, course, result)
+            for course, result in zip(courses, marches, strict=True)
+            if conserves(course.problem)
+        ]
+
+
+def _cell(method: Method, course: Course, result: March, sizes: _Sizes, previous: Cell | None, floor: bool) -> Cell:
+    place, velocity = sizes.place, sizes.velocity
     slope = None
     if previous is not None and 0 < place.largest < math.inf and 0 < previous.max_error < math.inf:
         slope = math.log(previous.max_error / place.largest) / math.log(course.n / previous.n)
@@ -92,16 +93,25 @@ def _cell(
         max_error=place.largest,
         end_error=place.last,
         local_order=slope,
-        floor=(place.largest <= FLOOR_FACTOR * rounding and rounding <= course.roundings)
-        or (previous is not None and previous.floor),
-        evaluations=marches[0].evaluations,
+        floor=floor,
+        evaluations=result.evaluations,
         rms_error=place.mean_square,
         max_velocity_error=velocity.largest,
         end_velocity_error=velocity.last,
         rms_velocity_error=velocity.mean_square,
-        digits=_digits(_Norms(np.abs(signed / course.sizes)[:, list(aspect.places)]).largest, course.fmt.bits),
-        jacobians=marches[0].jacobians,
+        digits=_digits(sizes.worst, course.fmt.bits),
+        jacobians=result.jacobians,
     )
+
+
+class _Sizes:
+    """The errors [samples, state] of a course in sizes, of its place and of its velocity."""
+
+    def __init__(self, course: Course, signed: np.ndarray, *, relative: bool) -> None:
+        errors, aspect = np.abs(signed), course.aspect
+        scaled = errors / course.units if relative else errors
+        self.place, self.velocity = _Norms(scaled[:, list(aspect.places)]), _Norms(scaled[:, list(aspect.rates)])
+        self.worst = _Norms((errors / course.sizes)[:, list(aspect.places)]).largest
 
 
 class _Norms:

@@ -9,10 +9,15 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from compare.aspects import conserves
+from compare.cases import case_of
 from compare.compensated import compensate
+from compare.course import SAMPLES, Course
+from compare.extras import GROWTH_SAMPLES, Found, score
+from compare.fit import fit_order
 from compare.methods import DEFAULT, find
 from compare.precision import precision as find_precision
-from compare.scores import Course, fit_order, score_method
+from compare.wanted import DEFAULT_SCORES, EXTRAS, chosen_scores
 from reference.exact import as_number, exact
 from reference.problem import Problem
 
@@ -23,7 +28,7 @@ if TYPE_CHECKING:
 
     from compare.method import Method
     from compare.precision import Precision
-    from compare.records import Cell, Drift, FittedOrder
+    from compare.records import Case, Cell, Drift, FittedOrder
 
 __all__ = ["DEFAULT_N", "Scored", "energy_drift", "error_vs_n", "score_all", "some"]
 
@@ -33,23 +38,54 @@ MAX_N = 10**10
 
 @dataclass(frozen=True)
 class Scored:
-    """The scores of one run: in order of method, then problem, then N."""
+    """The scores of one run: in order of method, then problem, then N.
+
+    Attributes:
+        methods: those that were asked for.
+        problems: the problems, each with its end in ``t_ends``.
+        scores: which were asked for, of ``compare.wanted.SCORES``.
+        samples: at how many of its steps a march is compared, at most.
+        found: records by the name of their table.
+        left_out: methods that do not fit a problem, by the problem's label.
+    """
 
     methods: tuple[Method, ...]
     problems: tuple[Problem, ...]
-    t_end: Fraction
+    t_ends: tuple[Fraction, ...]
     fmt: Precision
-    cells: tuple[Cell, ...]
-    drifts: tuple[Drift, ...]
+    scores: tuple[str, ...]
+    samples: int
+    found: Found
+    left_out: dict[str, tuple[str, ...]]
+
+    @property
+    def cells(self) -> tuple[Cell, ...]:
+        """The errors."""
+        return tuple(self.found["error_vs_n"])
+
+    @property
+    def drifts(self) -> tuple[Drift, ...]:
+        """The drifts of what is conserved."""
+        return tuple(self.found["energy_drift"])
+
+    @property
+    def cases(self) -> tuple[Case, ...]:
+        """The problems in a few words."""
+        return tuple(map(case_of, self.problems))
 
     @property
     def orders(self) -> tuple[FittedOrder, ...]:
         """A fitted order for each method and problem."""
-        return tuple(
-            fit_order(method, [cell for cell in self.cells if (cell.method, cell.theta0) == (method.name, theta0)])
-            for method in self.methods
-            for theta0 in (float(problem.start[0]) for problem in self.problems)
+        pairs = ((method, case) for method in self.methods for case in self.cases)
+        groups = (
+            (method, [cell for cell in self.cells if (cell.method, cell.case) == (method.name, case)])
+            for method, case in pairs
         )
+        return tuple(fit_order(method, cells) for method, cells in groups if cells)
+
+    def asked(self, name: str) -> tuple[Any, ...] | None:
+        """The records of a score that is not always there; None where it was not asked for."""
+        return tuple(self.found[name]) if name in self.scores else None
 
 
 def error_vs_n(problem: Problem, methods: Sequence[str] | None = None, **options: Any) -> tuple[Cell, ...]:
@@ -72,39 +108,71 @@ def score_all(
     progress: Callable[[str], None] | None = None,
     *,
     compensated: bool = False,
+    scores: Sequence[str] = DEFAULT_SCORES,
 ) -> Scored:
     """March methods over 0 <= t <= t_end of each problem in each number of steps, and score them.
 
+    A method that needs positions and momenta, or a conserved quantity, is left out where the problem has none.
+
     Args:
-        problems: problems of one family.
+        problems: problems of any families.
         methods: names or aliases; ``compare.methods.DEFAULT`` if None.
         n: numbers of steps, each a positive integer.
-        t_end: end of the march, s.
+        t_end: end of the march, in s or the problem's own unit; or a list of one for each problem.
         precision: a format of ``compare.precision``.
         executor: where the methods are marched, such as a process pool; in this process if None.
         progress: called with each method's name when it is done.
         compensated: whether every step's additions to the state are compensated for rounding.
+        scores: what is scored, of ``compare.wanted.SCORES``.
 
     Raises:
-        ValueError: an argument is outside its range, or a name unknown.
+        ValueError: an argument is outside its range, a name unknown, or no method fits any problem.
         TypeError: an argument is of the wrong kind.
     """
     if not all(isinstance(problem, Problem) for problem in problems):
         raise TypeError(f"problems holds a {type(problems[0]).__name__}; problems such as Pendulum(1.0) are accepted.")
-    fmt = find_precision(precision)
+    fmt, wanted = find_precision(precision), chosen_scores(some(scores, "scores"))
     chosen = DEFAULT if methods is None else tuple(dict.fromkeys(find(name) for name in some(methods, "methods")))
     if compensated:
         chosen = tuple(compensate(method) for method in chosen)
-    end = exact(t_end, "t_end")
-    if end <= 0:
-        raise ValueError(f"t_end is {as_number(end)}; a positive number is accepted.")
-    courses = [Course(problem, steps, end, fmt) for problem in problems for steps in _step_counts(n)]
+    ends = _ends(t_end, len(problems))
+    samples = GROWTH_SAMPLES if "growth" in wanted else SAMPLES
+    counts = _step_counts(n)
+    courses = [
+        Course(problem, k, end, fmt, samples) for problem, end in zip(problems, ends, strict=True) for k in counts
+    ]
     for course in courses:
         course.truth, course.neighbour.truth  # noqa: B018 - computed here once, before processes share it
-    scores = _in_order_of_work(chosen, courses, fmt, executor, progress)
-    cells = tuple(cell for method in chosen for cell in scores[method.name][0])
-    drifts = tuple(drift for method in chosen for drift in scores[method.name][1])
-    return Scored(chosen, tuple(problems), end, fmt, cells, drifts)
+    fitting = {method.name: [course for course in courses if fits(method, course.problem)] for method in chosen}
+    if not any(fitting.values()):
+        raise ValueError(f"none of {', '.join(fitting)} fits {problems[0]!r}; others, such as rk4, are accepted.")
+    results = _in_order_of_work(chosen, fitting, (fmt, wanted), executor, progress)
+    tables = ("error_vs_n", "energy_drift", *(name for name in wanted if name in EXTRAS))
+    found = {table: [record for method in chosen for record in results[method.name][table]] for table in tables}
+    left_out = {
+        case_of(problem).label: tuple(method.name for method in chosen if not fits(method, problem))
+        for problem in problems
+    }
+    return Scored(chosen, tuple(problems), ends, fmt, wanted, samples, found, left_out)
+
+
+def fits(method: Method, problem: Problem) -> bool:
+    """Whether the problem has what the method needs: positions apart from momenta, or a conserved quantity."""
+    if method.separable_only and not getattr(problem, "positions", 0):
+        return False
+    return method.family != "conservative" or conserves(problem)
+
+
+def _ends(t_end: Any, count: int) -> tuple[Fraction, ...]:
+    """The end of the march of each problem."""
+    listed = list(t_end) if isinstance(t_end, (list, tuple)) else [t_end] * count
+    if len(listed) != count:
+        raise ValueError(f"t_end has {len(listed)} numbers for {count} problems; one for each is accepted.")
+    ends = tuple(exact(end, "t_end") for end in listed)
+    for end in ends:
+        if end <= 0:
+            raise ValueError(f"t_end is {as_number(end)}; a positive number is accepted.")
+    return ends
 
 
 def some(values: Any, name: str) -> list[Any]:
@@ -131,29 +199,33 @@ def _step_counts(n: Sequence[int]) -> list[int]:
 
 def _in_order_of_work(
     methods: Sequence[Method],
-    courses: Sequence[Course],
-    fmt: Precision,
+    courses: dict[str, list[Course]],
+    asked: tuple[Precision, Sequence[str]],
     executor: Executor | None,
     progress: Callable[[str], None] | None,
-) -> dict[str, tuple[list[Cell], list[Drift]]]:
-    """Each method's cells and drifts, the longest marches begun first.
+) -> dict[str, Found]:
+    """Each method's records, the longest marches begun first.
 
     This process takes from the end of the queue what the executor has not begun.  Processes, not threads: a call of a
     compiled block is so short that threads would spend their time handing over the interpreter's lock.
     """
-    task = partial(score_method, courses=courses, fmt=fmt)
+    task = partial(score, fmt=asked[0], wanted=asked[1])
     by_work = sorted(methods, key=lambda method: (method.family != "implicit", -method.evaluations(1)[0]))
-    queued = {method.name: executor.submit(task, method) for method in by_work} if executor is not None else {}
-    scores: dict[str, tuple[list[Cell], list[Drift]]] = {}
+    queued = (
+        {method.name: executor.submit(task, method, courses[method.name]) for method in by_work}
+        if executor is not None
+        else {}
+    )
+    scores: dict[str, Found] = {}
 
-    def keep(method: Method, result: tuple[list[Cell], list[Drift]]) -> None:
+    def keep(method: Method, result: Found) -> None:
         scores[method.name] = result
         if progress is not None:
             progress(method.name)
 
     for method in reversed(by_work):
         if not queued or queued[method.name].cancel():
-            keep(method, task(method))
+            keep(method, task(method, courses[method.name]))
     for method in by_work:
         if method.name not in scores:
             keep(method, queued[method.name].result())

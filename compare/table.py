@@ -1,4 +1,4 @@
-"""A study's three tables, as text, Markdown, CSV, LaTeX or JSON.
+"""A study's tables, as text, Markdown, CSV, LaTeX or JSON: error, order, drift; the others in `compare.table_extras`.
 
 The readable forms (text, Markdown, LaTeX) round to three digits and say in their notes what a mark means.
 The machine forms (CSV, JSON) hold every number at full precision; `compare.machine` writes them.
@@ -6,18 +6,18 @@ The machine forms (CSV, JSON) hold every number at full precision; `compare.mach
 
 from __future__ import annotations
 
-import itertools
 import math
 from typing import TYPE_CHECKING
 
-from compare import grid, machine, rendering
+from compare import grid, machine, rendering, table_extras
 from compare.grid import Column, Grid, Section
+from compare.layout import by_steps, digits, of_steps, scientific
 from compare.rendering import FORMATS, Tables
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Iterator, Sequence
+    from collections.abc import Callable, Iterator, Sequence
 
-    from compare.records import Cell, Drift, FittedOrder, Study
+    from compare.records import Case, Cell, Drift, FittedOrder, Study
 
 __all__ = ["FORMATS", "TABLES", "files", "render", "sections"]
 
@@ -40,35 +40,39 @@ def files(study: Study, form: str = "text", width: int = 100) -> dict[str, bytes
 
 
 def sections(study: Study, width: int = 100) -> Iterator[Section]:
-    """The readable tables, amplitude by amplitude, with columns grouped by declared order to fit the width."""
+    """The readable tables, case by case, with columns grouped by declared order to fit the width."""
     declared = {fit.method: fit.declared_order for fit in study.order}
-    for theta0 in dict.fromkeys(cell.theta0 for cell in study.error_vs_n):
-        cells = [cell for cell in study.error_vs_n if cell.theta0 == theta0]
-        drifts = [drift for drift in study.energy_drift if drift.theta0 == theta0]
-        at = f"theta0 = {theta0!r} rad"
-        yield _error_section(cells, declared, at, width)
-        yield _order_section([fit for fit in study.order if fit.theta0 == theta0], at)
-        yield _drift_section(drifts, declared, at, width)
-        yield _slope_section(drifts, declared, at, width)
+    for case in study.cases:
+        for score in study.scores:
+            yield from _SECTIONS[score](study, case, declared, width)
 
 
-def _error_section(cells: Sequence[Cell], declared: dict[str, int], at: str, width: int) -> Section:
-    found = {(cell.method, cell.n): cell for cell in cells}
-    steps = _steps(cells)
+def _error(study: Study, case: Case, declared: dict[str, int], width: int) -> Iterator[Section]:
+    """Errors against N, and the orders fitted to them."""
+    cells = [cell for cell in study.error_vs_n if cell.case == case]
+    if cells:
+        yield _error_section(cells, declared, width)
+    fits = [fit for fit in study.order if fit.case == case]
+    if fits:
+        yield _order_section(fits)
 
-    def build(methods: Sequence[str]) -> Grid:
-        columns = [Column("N"), Column("h [s]")]
-        rows = [[str(n), _scientific(h)] for n, h in steps.items()]
-        for method in methods:
-            columns += [Column("error", method), Column("order", method, left=True)]
-            for row, n in zip(rows, steps, strict=True):
-                row.extend(_error_cell(found.get((method, n))))
-        return Grid(tuple(columns), tuple(map(tuple, rows)))
 
+def _drift(study: Study, case: Case, declared: dict[str, int], width: int) -> Iterator[Section]:
+    """The drift of what is conserved, and its trend."""
+    drifts = [drift for drift in study.energy_drift if drift.case == case]
+    if drifts:
+        yield _drift_section(drifts, declared, width)
+        yield _slope_section(drifts, declared, width)
+
+
+def _error_section(cells: Sequence[Cell], declared: dict[str, int], width: int) -> Section:
+    case = cells[0].case
+    what = f"largest {case.error} over the sample {case.samples}{f', in {case.unit},' if case.unit else ''}"
+    labels = Column("error"), Column("order", left=True)
     return Section(
-        name=f"error-vs-n-{grid.slug(at)}",
-        title=f"Error against N, {at}: largest |theta - exact| over the sample times, in rad, and local order",
-        grids=_split(build, _methods(cells), declared, width),
+        name=f"error-vs-n-{grid.slug(case.label)}",
+        title=f"Error against N, {case.label}: {what} and local order",
+        grids=by_steps(cells, declared, width, _error_cell, labels),
         note="\n".join(
             note
             for note, applies in (
@@ -80,13 +84,12 @@ def _error_section(cells: Sequence[Cell], declared: dict[str, int], at: str, wid
     )
 
 
-def _error_cell(cell: Cell | None) -> tuple[str, str]:
-    if cell is None:
-        return "", ""
-    return _scientific(cell.max_error), "*" if cell.floor else _local_order(cell.local_order)
+def _error_cell(cell: Cell) -> tuple[str, str]:
+    return scientific(cell.max_error), "*" if cell.floor else _local_order(cell.local_order)
 
 
-def _order_section(fits: Sequence[FittedOrder], at: str) -> Section:
+def _order_section(fits: Sequence[FittedOrder]) -> Section:
+    at = fits[0].case.label
     columns = (
         Column("method", left=True),
         Column("declared"),
@@ -114,103 +117,32 @@ def _order_section(fits: Sequence[FittedOrder], at: str) -> Section:
     )
 
 
-def _drift_section(drifts: Sequence[Drift], declared: dict[str, int], at: str, width: int) -> Section:
-    found = {(drift.method, drift.n): drift for drift in drifts}
-    steps = _steps(drifts)
-
-    def build(methods: Sequence[str]) -> Grid:
-        rows = [[str(n), _scientific(h)] for n, h in steps.items()]
-        for row, n in zip(rows, steps, strict=True):
-            cells = (found.get((method, n)) for method in methods)
-            row.extend("" if cell is None else _scientific(cell.max_drift_above_rest) for cell in cells)
-        columns = (Column("N"), Column("h [s]"), *map(Column, methods))
-        return Grid(columns, tuple(map(tuple, rows)))
-
+def _drift_section(drifts: Sequence[Drift], declared: dict[str, int], width: int) -> Section:
+    case = drifts[0].case
+    name, change = case.drift or ("", "")
+    size = f"|{change.partition('/')[0].strip('()')}|/{change.partition('/')[2]}"
     return Section(
-        name=f"energy-drift-{grid.slug(at)}",
-        title=f"Energy drift, {at}: max |E - E0|/(E0 - Emin) over every step",
-        grids=_split(build, _methods(drifts), declared, width),
+        name=f"energy-drift-{grid.slug(case.label)}",
+        title=f"{name} drift, {case.label}: max {size} over every step",
+        grids=by_steps(drifts, declared, width, lambda drift: [scientific(drift.max_drift_above_rest)]),
     )
 
 
-def _slope_section(drifts: Sequence[Drift], declared: dict[str, int], at: str, width: int) -> Section:
-    found = {(drift.method, drift.n): drift for drift in drifts}
-    methods = sorted(_methods(drifts), key=lambda method: declared.get(method, 0))
+def _slope_section(drifts: Sequence[Drift], declared: dict[str, int], width: int) -> Section:
+    case = drifts[0].case
+    name, change = case.drift or ("", "")
+    slope = f"slope of {change} per {case.cycle}, 95 % interval"
 
-    def build(chosen: Sequence[int]) -> Grid:
-        columns = [Column("method", left=True)]
-        rows = [[method] for method in methods]
-        for n in chosen:
-            columns += [Column("relative", f"N = {n}"), Column("slope per period", f"N = {n}")]
-            for row, method in zip(rows, methods, strict=True):
-                row.extend(_slope_cells(found.get((method, n))))
-        return Grid(tuple(columns), tuple(map(tuple, rows)))
+    def cells(drift: Drift) -> tuple[str, ...]:
+        trend = f"{scientific(drift.slope_per_period)} ± {digits(drift.slope_interval, '.0e')}"
+        return (scientific(drift.max_drift_relative), trend) if case.energy else (trend,)
 
+    labels = [*(["relative"] if case.energy else []), f"slope per {case.cycle}"]
     return Section(
-        name=f"energy-slope-{grid.slug(at)}",
-        title=f"Energy trend, {at}: max |E - E0|/|E0|, and slope of (E - E0)/(E0 - Emin) per period, 95 % interval",
-        grids=(build(_representative(list(_steps(drifts)), lambda ns: grid.text_width(build(ns)) <= width)),),
+        name=f"energy-slope-{grid.slug(case.label)}",
+        title=f"{name} trend, {case.label}: {'max |E - E0|/|E0|, and ' if case.energy else ''}{slope}",
+        grids=(of_steps(drifts, declared, width, labels, cells),),
     )
-
-
-def _slope_cells(drift: Drift | None) -> tuple[str, str]:
-    if drift is None:
-        return "", ""
-    slope = f"{_scientific(drift.slope_per_period)} ± {_digits(drift.slope_interval, '.0e')}"
-    return _scientific(drift.max_drift_relative), slope
-
-
-def _methods(records: Iterable[Cell | Drift]) -> list[str]:
-    return list(dict.fromkeys(record.method for record in records))
-
-
-def _steps(records: Iterable[Cell | Drift]) -> dict[int, float]:
-    """The step size at each N, in increasing N."""
-    return dict(sorted({record.n: record.h for record in records}.items()))
-
-
-def _split(
-    build: Callable[[Sequence[str]], Grid], methods: Sequence[str], declared: dict[str, int], width: int
-) -> tuple[Grid, ...]:
-    """Grids no wider than the width; methods of one order stay together where they fit, and orders share a grid."""
-
-    def fits(names: Sequence[str]) -> bool:
-        return len(names) <= 1 or grid.text_width(build(names)) <= width
-
-    groups: list[list[str]] = []
-    for order in sorted({declared.get(method, 0) for method in methods}):
-        members = [method for method in methods if declared.get(method, 0) == order]
-        if groups and fits([*groups[-1], *members]):
-            groups[-1].extend(members)
-            continue
-        parts = next(parts for parts in range(1, len(members) + 1) if all(map(fits, _even(members, parts))))
-        groups.extend(_even(members, parts))
-    return tuple(map(build, groups))
-
-
-def _even(names: Sequence[str], parts: int) -> list[list[str]]:
-    """The names in consecutive parts whose lengths differ by one at most, longer ones first."""
-    size, longer = divmod(len(names), parts)
-    starts = [i * size + min(i, longer) for i in range(parts + 1)]
-    return [list(names[start:stop]) for start, stop in itertools.pairwise(starts)]
-
-
-def _representative(steps: Sequence[int], fits: Callable[[Sequence[int]], bool]) -> Sequence[int]:
-    """As many values of N, spread evenly over the inside of the range, as fit; at least one, at most three."""
-    for count in (3, 2):
-        places = [round((i + 1) * (len(steps) - 1) / (count + 1)) for i in range(count)]
-        chosen = [steps[place] for place in dict.fromkeys(places)] if steps else []
-        if len(chosen) == count and fits(chosen):
-            return chosen
-    return steps[len(steps) // 2 :][:1]
-
-
-def _scientific(value: float) -> str:
-    return _digits(value, ".2e")
-
-
-def _digits(value: float, form: str) -> str:
-    return format(value, form) if math.isfinite(value) else str(value)
 
 
 def _local_order(order: float | None) -> str:
@@ -228,5 +160,11 @@ def _fitted(fit: FittedOrder) -> str:
     return f"{fit.fitted_order:.4f} ± {fit.spread:{'.4f' if fit.spread >= 5e-5 else '.0e'}}"
 
 
+_SECTIONS: dict[str, Callable[[Study, Case, dict[str, int], int], Iterator[Section]]] = {
+    "error": _error,
+    "drift": _drift,
+    **table_extras.SECTIONS,
+}
+"""The tables of each score."""
 TABLES = Tables(sections, machine.COLUMNS)
 """How a study of fixed steps is shown."""

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 from flint import arb, ctx
 
 from compare.submission.orbit import orbits, remark
+from compare.submission.place import apart
 from compare.submission.record import Point
 from reference.arithmetic import BALL
 from reference.problem import Problem
@@ -18,7 +19,7 @@ from reference.routes import enclosure
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
-    from compare.submission.place import Orbits, Place
+    from compare.submission.place import Orbits
     from compare.submission.record import Running, Score
     from compare.submission.written import Written
 
@@ -175,15 +176,7 @@ class _Bench:
         """(phase error in rad, amplitude error in rad)."""
         if self._orbits is None:
             return math.nan, math.nan
-        here: Place = self._orbits.place(y)
-        true: Place = self._orbits.truth(t)
-        phase = amplitude = math.nan
-        if here.phase is not None and true.phase is not None:
-            periods = here.phase - true.phase
-            phase = float(2 * arb.pi() * (periods - (periods + arb(0.5)).mid().floor()))
-        if here.amplitude is not None and true.amplitude is not None:
-            amplitude = float(here.amplitude - true.amplitude)
-        return phase, amplitude
+        return apart(self._orbits.place(y), self._orbits.truth(t))
 
     def _energy_error(self, y: Sequence[arb]) -> float:
         invariant = self._invariant(y)

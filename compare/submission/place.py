@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING, NamedTuple, Protocol
+
+from flint import arb
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
     from fractions import Fraction
 
-    from flint import arb
-
-__all__ = ["NOWHERE", "Orbits", "Place"]
+__all__ = ["NOWHERE", "Orbits", "Place", "apart"]
 
 
 class Place(NamedTuple):
@@ -32,3 +33,14 @@ class Orbits(Protocol):
 
     def place(self, y: Sequence[arb]) -> Place:
         """The place of any state on the orbit through it, if that is of the exact motion's kind."""
+
+
+def apart(here: Place, true: Place) -> tuple[float, float]:
+    """The errors of phase, in rad from -pi to pi, and of amplitude; NaN where one of the places has none."""
+    phase = amplitude = math.nan
+    if here.phase is not None and true.phase is not None:
+        periods = here.phase - true.phase
+        phase = float(2 * arb.pi() * (periods - (periods + arb(0.5)).mid().floor()))
+    if here.amplitude is not None and true.amplitude is not None:
+        amplitude = float(here.amplitude - true.amplitude)
+    return phase, amplitude

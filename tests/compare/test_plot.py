@@ -10,11 +10,12 @@ import xml.etree.ElementTree as ET
 import matplotlib as mpl
 import numpy as np
 import pytest
-from made_study import METHODS, made_study
+from made_study import METHODS, made_case, made_study
 
 from compare import plot
 from compare.ink import inks, spread, style
 
+CASE = made_case(1.0)
 FEW = ("euler", "verlet", "suzuki4")
 NAMES = ("error-vs-n", "work-precision", "energy-drift", "phase-portrait")
 
@@ -47,7 +48,7 @@ def test_several_amplitudes_have_their_own_figures():
 
 def test_error_figure_labels_axes_methods_and_orders():
     with style():
-        figure = plot.error_figure(made_study(methods=FEW), 1.0)
+        figure = plot.error_figure(made_study(methods=FEW), CASE)
     axes = figure.axes[0]
     texts = {text.get_text() for text in axes.texts}
     assert {"euler", "verlet", "suzuki4", "order 1", "order 2", "order 4", "hollow grey: rounding, not order"} <= texts
@@ -59,7 +60,7 @@ def test_error_figure_labels_axes_methods_and_orders():
 @pytest.mark.parametrize("order", [1, 2, 4])
 def test_reference_slopes_have_the_slope_of_their_order(order):
     with style():
-        axes = plot.error_figure(made_study(methods=FEW), 1.0).axes[0]
+        axes = plot.error_figure(made_study(methods=FEW), CASE).axes[0]
     slopes = []
     for line in axes.lines:
         if line.get_transform() == axes.transData and len(line.get_xdata()) == 2:
@@ -70,7 +71,7 @@ def test_reference_slopes_have_the_slope_of_their_order(order):
 
 def test_work_figure_counts_evaluations():
     with style():
-        axes = plot.work_figure(made_study(methods=("rk4",)), 1.0).axes[0]
+        axes = plot.work_figure(made_study(methods=("rk4",)), CASE).axes[0]
     assert max(axes.lines[0].get_xdata()) == 4 * 2**20
 
 
@@ -109,7 +110,7 @@ def test_labels_are_spread_in_order_and_near_their_curves():
 def test_an_orbit_that_does_not_move_is_drawn():
     study = made_study(methods=("verlet",))
     still = [
-        dataclasses.replace(trace, theta=np.full(401, 1.0), omega=np.zeros(401))
+        dataclasses.replace(trace, states=np.repeat([[1.0, 0.0]], 401, axis=0))
         for trace in (study.traces[0], study.exact[0])
     ]
     assert len(plot.files(dataclasses.replace(study, traces=(still[0],), exact=(still[1],)))) == 8

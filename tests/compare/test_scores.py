@@ -8,16 +8,18 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 import pytest
+from made_study import made_case, made_cell
 from mpmath import mp
 
 from compare.methods import find
 from compare.precision import precision
-from compare.records import Cell
 from compare.scores import Course, fit_order, score_method, slope_with_interval, student_95
 from reference import Pendulum
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
+
+    from compare.records import Cell
 
 FLOAT64 = precision("float64")
 RK4 = find("rk4")
@@ -25,7 +27,7 @@ RK4 = find("rk4")
 
 def cells(errors: list[float], floor: tuple[int, ...] = ()) -> list[Cell]:
     return [
-        Cell("rk4", 2 ** (7 + i), 10 / 2 ** (7 + i), 1.0, error, error, None, i in floor, 0)
+        made_cell("rk4", 2 ** (7 + i), 10 / 2 ** (7 + i), made_case(1.0), error, None, i in floor, 0)
         for i, error in enumerate(errors)
     ]
 

@@ -1,0 +1,154 @@
+"""One cell of a study before any method runs it: a problem, a number of steps, and the truth at its sample times."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import cached_property, lru_cache
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from compare.aspects import Aspect, aspect_of, conserves
+from compare.cases import case_of
+from compare.lane import Lane, StartInvariant, sample_steps
+from reference.arithmetic import NUMPY
+
+if TYPE_CHECKING:
+    from fractions import Fraction
+
+    from compare.precision import Precision
+    from compare.records import Case
+    from reference.problem import Problem
+
+__all__ = ["SAMPLES", "Course", "proven"]
+
+SAMPLES = 128
+
+
+@dataclass(frozen=True)
+class Course:
+    """A problem in n steps up to t_end, whose state is compared after some of them."""
+
+    problem: Problem
+    n: int
+    t_end: Fraction
+    fmt: Precision
+    samples: int = SAMPLES
+
+    def __post_init__(self) -> None:
+        for name, value in zip(self.problem.state_names, self.problem.start, strict=True):
+            if value and not self.fmt.number(value):
+                raise ValueError(f"{name} starts at {float(value)}, which {self.fmt.name} cannot hold.")
+
+    @cached_property
+    def h(self) -> Fraction:
+        """t_end/N rounded to the format, exactly.
+
+        Raises:
+            ValueError: it is smaller than any number of the format.
+        """
+        h = self.fmt.round(self.t_end / self.n)
+        if not self.fmt.number(h):
+            raise ValueError(
+                f"t_end/n is {float(h):.1e}, which {self.fmt.name} cannot hold; a longer time is accepted."
+            )
+        return h
+
+    @cached_property
+    def steps(self) -> tuple[int, ...]:
+        """The steps after which the state is compared."""
+        return sample_steps(self.n, self.samples)
+
+    @cached_property
+    def times(self) -> list[Fraction]:
+        """n h, exactly."""
+        return [step * self.h for step in self.steps]
+
+    @cached_property
+    def truth(self) -> np.ndarray:
+        """The proven state at the times: float64 limbs [samples, state, limbs], enough for the format."""
+        return proven(self.problem, tuple(self.times), max(2, self.fmt.bits // 53 + 2))
+
+    @cached_property
+    def neighbour(self) -> Course:
+        """The same course from a start close by, whose truncation error is the same and whose rounding is not."""
+        return replace(self, problem=self.problem.neighbour(self.fmt.round, self.fmt.exact_epsilon))
+
+    @property
+    def case(self) -> Case:
+        """The problem in a few words."""
+        return case_of(self.problem)
+
+    @property
+    def aspect(self) -> Aspect:
+        """How the state is read."""
+        return aspect_of(self.problem)
+
+    @cached_property
+    def sizes(self) -> np.ndarray:
+        """The largest absolute value of each component of the truth over the samples; 1 for one that is always zero."""
+        sizes = np.max(np.abs(self.truth[:, :, 0]), axis=0)
+        return np.where(sizes > 0, sizes, 1.0)
+
+    @cached_property
+    def units(self) -> np.ndarray:
+        """What the error of each component is measured in: its size, or 1 where errors are left as they are."""
+        return np.ones_like(self.sizes) if self.aspect.angle else self.sizes
+
+    def place(self, errors: np.ndarray) -> np.ndarray:
+        """The error of the place at each sample, of errors [samples, state]: of several components the largest."""
+        largest: np.ndarray = np.max((np.abs(errors) / self.units)[:, list(self.aspect.places)], axis=1)
+        return largest
+
+    @property
+    def roundings(self) -> float:
+        """How far N roundings of the place can lead, carried along as the exact motion carries them.
+
+        The exact motion's growth is that of the distance between this course and its neighbour.
+        """
+        places = list(self.aspect.places)
+        gap = np.max(np.abs(self.truth[:, :, 0] - self.neighbour.truth[:, :, 0]), axis=0) / self.sizes
+        growth = 1 + float(np.max(gap[places])) / (self._apart or 1.0)
+        return 8 * self.n * self.fmt.epsilon * growth * float(np.max((self.sizes / self.units)[places]))
+
+    @cached_property
+    def _apart(self) -> float:
+        """How far the neighbour begins, in start or parameters, in units of their sizes."""
+        here, there = self.problem, self.neighbour.problem
+        starts = [abs(float(a - b)) for a, b in zip(here.start, there.start, strict=True)]
+        named = there.parameters
+        parameters = [abs(float((value - named[name]) / (value or 1))) for name, value in here.parameters.items()]
+        return float(max(*np.divide(starts, self.sizes), *parameters))
+
+    @property
+    def lane(self) -> Lane:
+        """The march that this course asks for."""
+        return Lane(self.problem, self.n, self.h, self.steps)
+
+    def errors(self, states: np.ndarray) -> np.ndarray:
+        """States - truth, float64 [samples, state]."""
+        return self.fmt.difference(states, self.truth)
+
+    @cached_property
+    def level(self) -> float:
+        """The invariant at the start."""
+        return float(self.fmt.number(StartInvariant(self.problem)))
+
+    def drift(self, states: np.ndarray) -> np.ndarray:
+        """(E - E0)/(E0 - Emin) of states [samples, state], computed in the format, as float64.
+
+        Not a number where nothing is conserved, or where E0 - Emin is below the range of the format.
+        """
+        problem, start = self.problem, self.fmt.number(StartInvariant(self.problem))
+        if not conserves(problem) or not start:
+            return np.full(len(states), np.nan)
+        parameters = {name: self.fmt.number(value) for name, value in problem.parameters.items()}
+        energies = problem.invariant(NUMPY, tuple(np.moveaxis(states, 1, 0)), parameters)
+        drift: np.ndarray = ((energies - start) / start).astype(np.float64)
+        return drift
+
+
+@lru_cache(maxsize=64)
+def proven(problem: Problem, times: tuple[Fraction, ...], limbs: int) -> np.ndarray:
+    """``problem.state``, kept: numbers of steps that are powers of two share their sample times."""
+    return problem.state(times, limbs=limbs)

@@ -1,0 +1,131 @@
+"""The tables of the scores that are asked for: norms, phase and amplitude, growth, period, defects."""
+
+from __future__ import annotations
+
+import math
+from operator import attrgetter
+from typing import TYPE_CHECKING, Any
+
+from compare import grid
+from compare.grid import Section
+from compare.layout import by_steps, digits, of_steps, scientific
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator, Sequence
+
+    from compare.records import Case, Cell, Growth, Study
+
+__all__ = ["SECTIONS"]
+
+QUANTITIES = ("place", "phase", "energy")
+_GROWTH_NOTE = "exponent of t ± its 95 % interval; no law where none is clear; * means that the error is rounding"
+_GROWTH_NAN = "nan means too few periods, or an error that is no number: 32 periods and 32 samples make four windows"
+
+
+def _norms(study: Study, case: Case, declared: dict[str, int], width: int) -> Iterator[Section]:
+    cells = [cell for cell in study.error_vs_n if cell.case == case]
+    if not cells:
+        return
+    velocity = not all(math.isnan(cell.max_velocity_error) for cell in cells)
+    labels = ["max", "rms", "end", *(["max v", "rms v", "end v"] if velocity else []), "digits", "evaluations"]
+
+    def shown(cell: Cell) -> list[str]:
+        errors = [cell.max_error, cell.rms_error, cell.end_error]
+        errors += [cell.max_velocity_error, cell.rms_velocity_error, cell.end_velocity_error] if velocity else []
+        return [*map(scientific, errors), digits(cell.digits, ".1f"), str(cell.evaluations)]
+
+    unit = f", in {case.unit}" if case.unit else ""
+    rate = f"; v: of the velocity{', per second' if case.unit else ', relative to its largest'}" if velocity else ""
+    yield Section(
+        name=f"norms-{grid.slug(case.label)}",
+        title=f"Norms, {case.label}: {case.error}{unit}{rate}; correct digits of the place; work",
+        grids=(of_steps(cells, declared, width, labels, shown),),
+    )
+
+
+def _phase(study: Study, case: Case, declared: dict[str, int], width: int) -> Iterator[Section]:
+    found = [phase for phase in study.phase or () if phase.case == case]
+    if not found:
+        return
+    yield Section(
+        name=f"phase-{grid.slug(case.label)}",
+        title=f"Phase, {case.label}: largest |phase - exact| over the sample times, in rad, 2 pi a period",
+        grids=by_steps(
+            found, declared, width, lambda phase: [scientific(phase.max_phase_error) + "!" * bool(phase.lost)]
+        ),
+        note="! means that some states are on no orbit of the exact motion's kind, and have no phase"
+        if any(phase.lost for phase in found)
+        else "",
+    )
+    if not all(math.isnan(phase.max_amplitude_error) for phase in found):
+        yield Section(
+            name=f"amplitude-{grid.slug(case.label)}",
+            title=f"Amplitude, {case.label}: largest |amplitude - exact| over the sample times, in units of the place",
+            grids=by_steps(found, declared, width, lambda phase: [scientific(phase.max_amplitude_error)]),
+        )
+
+
+def _growth(study: Study, case: Case, declared: dict[str, int], width: int) -> Iterator[Section]:
+    found = [growth for growth in study.growth or () if growth.case == case]
+    for quantity in QUANTITIES:
+        records = [growth for growth in found if growth.quantity == quantity]
+        if records:
+            nan = any(math.isnan(growth.exponent) for growth in records)
+            yield Section(
+                name=f"growth-{quantity}-{grid.slug(case.label)}",
+                title=f"Growth, {case.label}: law of the {_WORDS[quantity]} over time",
+                grids=(of_steps(records, declared, width, ["law", "exponent"], _growth_cells),),
+                note=_GROWTH_NOTE + ("\n" + _GROWTH_NAN if nan else ""),
+            )
+
+
+_WORDS = {"place": "error of the place", "phase": "error of the phase", "energy": "change of the conserved quantity"}
+
+
+def _growth_cells(growth: Growth) -> list[str]:
+    if math.isnan(growth.exponent):
+        return ["-", "nan"]
+    return [growth.law or "-", f"{growth.exponent:.2f} ± {growth.interval:.2f}{'*' * growth.floor}"]
+
+
+def _period(study: Study, case: Case, declared: dict[str, int], width: int) -> Iterator[Section]:
+    yield from _plain(
+        [period for period in study.period or () if period.case == case],
+        "period",
+        f"Period, {case.label}: own/exact - 1, between two passages through the bottom, each where the phase of the "
+        "orbits through the states around it, taken as linear, is whole",
+        lambda period: period.relative_error,
+        (declared, width),
+    )
+
+
+def _defects(study: Study, case: Case, declared: dict[str, int], width: int) -> Iterator[Section]:
+    found = [defect for defect in study.defects or () if defect.case == case]
+    for what, title in _DEFECTS.items():
+        known = [defect for defect in found if not math.isnan(getattr(defect, what))]
+        yield from _plain(known, what, title.format(case.label), attrgetter(what), (declared, width))
+
+
+_DEFECTS = {
+    "symplecticity": "Symplecticity defect, {}: largest |det d(y_n+1)/d(y_n) - 1| in position and momentum",
+    "reversibility": "Reversibility defect, {}: distance from the start after N steps, turning round, N steps",
+}
+
+
+def _plain(
+    records: Sequence[Any], name: str, title: str, value: Callable[[Any], float], layout: tuple[dict[str, int], int]
+) -> Iterator[Section]:
+    """One number for each method and N, if there are any."""
+    if records:
+        grids = by_steps(records, *layout, lambda record: [scientific(value(record))])
+        yield Section(f"{name}-{grid.slug(records[0].case.label)}", title, grids)
+
+
+SECTIONS: dict[str, Callable[[Study, Case, dict[str, int], int], Iterator[Section]]] = {
+    "norms": _norms,
+    "phase": _phase,
+    "growth": _growth,
+    "period": _period,
+    "defects": _defects,
+}
+"""The tables of each score."""
