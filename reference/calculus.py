@@ -17,7 +17,7 @@ from reference.routes import quadrature
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-__all__ = ["ball_integral", "ball_root", "enclosed_zero", "mpmath_integral", "mpmath_root"]
+__all__ = ["ball_integral", "ball_root", "ball_zero", "enclosed_zero", "mpmath_integral", "mpmath_root"]
 
 WIDENINGS = 12
 """How often the neighbourhood of a zero is widened before this precision is given up."""
@@ -47,13 +47,15 @@ def mpmath_integral(m: Any, function: Callable[[Any, Any], Any], low: Any, high:
 
 
 def ball_root(m: Any, function: Callable[[Any, Any], Any], low: Any, high: Any) -> arb:
-    """A ball around the one zero of a monotone function in [low, high]; not a number where it cannot be proven.
+    """A ball around the one zero of a monotone function in [low, high]; not a number where it cannot be proven."""
+    return ball_zero(lambda x: with_slope(m, function, x), low, high)
+
+
+def ball_zero(both: Callable[[arb], tuple[arb, arb]], low: Any, high: Any) -> arb:
+    """The same of a function that comes with its slope.
 
     Newton's method, kept inside the bracket, finds a point; the interval Newton step about it proves the zero.
     """
-
-    def both(x: arb) -> tuple[Any, Any]:
-        return with_slope(m, function, x)
 
     def point(x: arb) -> tuple[arb, arb]:
         """A value that cannot be told from zero is as near to it as this precision comes."""

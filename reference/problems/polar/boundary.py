@@ -15,6 +15,7 @@ faster, and none is the fastest.
 from __future__ import annotations
 
 from fractions import Fraction
+from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
 from flint import arb, ctx
@@ -22,18 +23,21 @@ from mpmath import mp
 
 from reference.arithmetic import BALL
 from reference.exact import as_number
-from reference.limbs import ziv
+from reference.limbs import WorkBoundError, ziv
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
     from reference.problems.polar.extremal import End, Extremal, Field
 
-__all__ = ["end_of", "lowest_point"]
+__all__ = ["end_of", "exponent_near", "lowest_point"]
 
 DECISION_BITS = 128
+RANGE = 512
+SPREAD = 40
+"""Bits to which bisection finds the logarithm of w."""
 WIDENINGS = 12
-STEPS = 200
+STEPS = 100
 
 
 def end_of(radius: Fraction, angle: Fraction, field: Field, extremal: Callable[..., Extremal]) -> End:
@@ -44,7 +48,7 @@ def end_of(radius: Fraction, angle: Fraction, field: Field, extremal: Callable[.
     """
     from reference.problems.polar.extremal import End
 
-    told = f"end is ({as_number(radius)}, {as_number(angle)})"
+    told = _told(radius, angle)
     if not 0 < radius <= 1:
         raise ValueError(f"{told}; a radius with 0 < R <= 1, the radius of the release, is accepted.")
     if angle <= 0:
@@ -59,6 +63,10 @@ def end_of(radius: Fraction, angle: Fraction, field: Field, extremal: Callable[.
     return End(radius, angle, after)
 
 
+def _told(radius: Fraction, angle: Fraction) -> str:
+    return f"end is ({as_number(radius)}, {as_number(angle)})"
+
+
 def _positive(difference: Callable[[], arb], what: str) -> bool:
     """Whether a number is positive, decided in balls; it is not zero."""
 
@@ -68,49 +76,82 @@ def _positive(difference: Callable[[], arb], what: str) -> bool:
     return ziv(lambda _: [[difference()]], certain, 1, DECISION_BITS, what)[0][0]
 
 
-def lowest_point(m: Any, end: End, field: Field, extremal: Callable[..., Extremal]) -> Any:
-    """z0 of the extremal to ``end``: in balls proven, not a number where it cannot be.
+def lowest_point(m: Any, end: End, extremal: Callable[..., Extremal], exponent: Fraction) -> Any:
+    """z0 of the extremal to ``end``, near to where ``exponent_near`` puts it: in balls proven, or not a number.
 
-    z0 = R (1 - t^2) with t > 0 before the lowest point and t < 0 after it makes one falling function of both branches,
-    from the sweep at t = -1 over half_angle(R) at t = 0 to 0 at t = 1; at R = 1 the second half is missing.
+    z0 = R/(1 + w^2), w > 0 before the lowest point and w < 0 after it: the angle falls with w on both branches, and no
+    digits are lost near z0 = R, near 0 or near 1.
     """
-    radius, angle = m.number(end.radius), m.number(end.angle)
+    angle, spread = m.number(end.angle), m.number(Fraction(1, 1 << SPREAD))
+    near = m.power(m.number(Fraction(2)), exponent) * (-1 if end.after else 1)
 
-    def excess(t: Any) -> Any:
-        return extremal(m, radius * (1 - t) * (1 + t), end).arrival_angle - angle
+    def excess(w: Any) -> Any:
+        return extremal(m, _lowest(m, end, w), end).arrival_angle - angle
 
-    middle = -angle if end.radius == 1 else extremal(m, radius).half_angle - angle
-    edge = m.number(field.sweep) * m.pi() - angle if end.after else -angle
-    bracket = (m.number(Fraction(-1 if end.after else 1)), edge), (m.number(Fraction(0)), middle)
-    t = _proven_zero(excess, bracket) if m is BALL else _mpmath_zero(excess, bracket)
-    return radius * (1 - t) * (1 + t)
+    zero = _proven_zero if m is BALL else _mpmath_zero
+    return _lowest(m, end, zero(excess, near * (1 - spread), near * (1 + spread)))
 
 
-Bracket = tuple[tuple[Any, Any], tuple[Any, Any]]
-"""Two arguments, each with the value there; the values are of opposite signs."""
+def _lowest(m: Any, end: End, w: Any) -> Any:
+    return m.number(end.radius) / (1 + w * w)
 
 
-def _proven_zero(function: Callable[[arb], arb], bracket: Bracket) -> arb:
+@lru_cache(maxsize=64)
+def exponent_near(end: End, extremal: Callable[..., Extremal]) -> Fraction:
+    """log2 |w| by bisection, every sign decided in balls.
+
+    Raises:
+        WorkBoundError: it is beyond RANGE: the end is too near to the limits of what is reached.
+    """
+    side = -1 if end.after else 1
+    low, high = Fraction(-RANGE), Fraction(RANGE)
+
+    def wide(exponent: Fraction) -> bool:
+        """Whether |w| is too large."""
+
+        def excess() -> arb:
+            w = side * BALL.power(BALL.number(Fraction(2)), exponent)
+            return side * (BALL.number(end.angle) - extremal(BALL, _lowest(BALL, end, w), end).arrival_angle)
+
+        return _positive(excess, f"the path to {_told(end.radius, end.angle)}")
+
+    if wide(low) or not wide(high):
+        raise WorkBoundError(
+            f"{_told(end.radius, end.angle)}, too near to where no smooth extremal reaches: its lowest point is within "
+            f"2^-{2 * RANGE} of 0, of 1 or of R, the limit."
+        )
+    while high - low > Fraction(1, 1 << SPREAD + 4):
+        middle = (low + high) / 2
+        low, high = (low, middle) if wide(middle) else (middle, high)
+    return low
+
+
+def _proven_zero(function: Callable[[arb], arb], *ends: arb) -> arb:
     """A ball around the zero of a falling function, at whose ends the function has the signs that it must have."""
 
-    def at(t: arb) -> arb:
-        value = function(t)
+    def at(w: arb) -> arb:
+        value = function(w)
         return arb(0) if value.contains(0) else value.mid()
 
-    points = [(t.mid(), value.mid()) for t, value in bracket]
-    t = next(t for t, step in _approach(at, points, arb.mid) if step <= abs(t) * arb(2) ** (8 - ctx.prec))
-    radius = abs(t) * arb(2) ** (8 - ctx.prec)
+    bracket = [(w.mid(), at(w.mid())) for w in ends]
+    if not bracket[0][1] * bracket[1][1] < 0:
+        return arb.nan()
+    least = abs(bracket[0][0]) * arb(2) ** (8 - ctx.prec)
+    w = next(w for w, step in _approach(at, bracket, arb.mid) if step <= least)
+    slope = abs((bracket[1][1] - bracket[0][1]) / (bracket[1][0] - bracket[0][0]))
+    radius = least + 2 * function(w).rad() / slope
     for _ in range(WIDENINGS):
-        if function((t - radius).mid()) > 0 > function((t + radius).mid()):
-            return t + radius * arb(0, 1)
+        if function((w - radius).mid()) > 0 > function((w + radius).mid()):
+            return w + radius * arb(0, 1)
         radius *= 16
     return arb.nan()
 
 
-def _mpmath_zero(function: Callable[[Any], Any], bracket: Bracket) -> Any:
+def _mpmath_zero(function: Callable[[Any], Any], *ends: Any) -> Any:
     bound = mp.mpf(2) ** (4 - mp.prec)
     with mp.extraprec(20):
-        return next(t for t, step in _approach(function, bracket, mp.mpf) if step <= abs(t) * bound)
+        bracket = [(w, function(w)) for w in ends]
+        return next(w for w, step in _approach(function, bracket, mp.mpf) if step <= abs(w) * bound)
 
 
 def _approach(function: Callable[[Any], Any], bracket: Any, point: Callable[[Any], Any]) -> Iterator[tuple[Any, Any]]:

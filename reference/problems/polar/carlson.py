@@ -9,7 +9,10 @@ Carlson's forms, DLMF 19.16).  The angle needs no other: sqrt(kappa (1 - z)/z^3)
 path with the vertical, and dphi = (2/3) dalpha - (z0/(3 sqrt(s))) dF, because the pole of dphi at z = 0 is a point of
 order three of the elliptic curve.  Hence
 
-    phi = (2/3) alpha - z0 F/(3 sqrt(s)),     half_angle = pi/3 - 2 z0 K(k)/(3 sqrt(s)) < pi/3.
+    phi = (2/3) alpha - z0 F/(3 sqrt(s)),     half_angle = pi/3 - 2 z0 K(k)/(3 sqrt(s)) < pi/3,
+
+and half_angle falls with z0: the logarithmic derivative of z0/sqrt(s) is 1/z0 + 1/(2 s^2) > 1, and that of K at least
+(dk^2/dz0)/(2 k'^2) > -1/10, for K k' falls with k and dk^2/dz0 = -3 d^2/(4 s^3).
 
 The time has a pole at infinity besides and takes all three kinds: with P = x (x + a) (x + a*)
 
@@ -26,7 +29,7 @@ from typing import TYPE_CHECKING, Any
 
 from flint import acb, arb, ctx
 
-from reference.calculus import enclosed_zero
+from reference.calculus import ball_zero, enclosed_zero
 from reference.problems.polar.equations import POINT_MASS
 from reference.problems.polar.extremal import Extremal
 from reference.problems.polar.panels import Schedule
@@ -38,6 +41,8 @@ __all__ = ["Carlson"]
 
 FLOAT_BITS = 45
 """Bits that a first guess in floats is good for."""
+LATE = 1.0, 3.5
+"""Where to look for a psi near the lowest point."""
 SPARE_BITS = 40
 """Bits that a Newton step may lose, and that a proof begins with to spare."""
 
@@ -110,13 +115,20 @@ class Carlson(Extremal):
         return Schedule(self.field, float(self.z0))
 
     def psi_at(self, tau: arb) -> arb:
-        """The zero of tau(psi) - tau by interval Newton, from a guess in floats and steps at growing precision."""
-        x, good = arb(self._schedule.psi_at(float(tau))), FLOAT_BITS
+        """The zero of tau(psi) - tau by interval Newton, from a guess in floats and steps at growing precision.
+
+        Very near to the lowest point of a very deep path these may fail, and bisection helps.
+        """
+        x, good = arb(self._schedule.psi_at(float(tau / self.descent_time))), FLOAT_BITS
         while 2 * good < ctx.prec - SPARE_BITS:
             with ctx.workprec(2 * good + SPARE_BITS):
                 x = (x - (self._time_at(x) - tau) / self._slope(x)).mid()
             good *= 2
-        return enclosed_zero(x, self._time_at(x) - tau, self._slope(x), self._slope)
+        found = enclosed_zero(x, self._time_at(x) - tau, self._slope(x), self._slope)
+        if found.is_finite():
+            return found
+        bracket = LATE if tau > 0 else (-LATE[1], -LATE[0])
+        return ball_zero(lambda x: (self._time_at(x) - tau, self._slope(x)), *bracket)
 
     def _time_at(self, psi: arb) -> arb:
         """tau a little beyond the lowest points too."""

@@ -14,8 +14,9 @@ from mpmath import mp
 from reference.arithmetic import BALL, MPMATH
 from reference.exact import as_number, exact
 from reference.problem import Problem, Row
-from reference.problems.polar.boundary import end_of, lowest_point
+from reference.problems.polar.boundary import end_of, exponent_near, lowest_point
 from reference.problems.polar.numerical import Numerical
+from reference.problems.polar.panels import panels_of
 from reference.problems.polar.taylor import TaylorExtremal
 
 if TYPE_CHECKING:
@@ -29,10 +30,13 @@ __all__ = ["BODIES", "CentralBrachistochrone", "rational_root"]
 
 BODIES = {"earth": Fraction("6.6743e-11") * Fraction("5.9722e24")}
 """G M in m^3/s^2 of the bodies that have a name; the Earth's is the product of the constants of the thesis."""
+PI = Fraction(math.pi)
 SECONDS = ("time_unit", "descent_seconds", "arrival_seconds", "si_curve", "si_state")
 TAYLOR_PSI = 16
 TAYLOR_TAU = 32
 """The Taylor route serves 0 <= psi <= TAYLOR_PSI and 0 <= tau <= TAYLOR_TAU sqrt(1 - z0), ten descents or more."""
+PASSAGE = 2.0**-40
+"""How long in psi the passage of the lowest point must be for the routes that integrate through it."""
 
 
 @dataclass(frozen=True, repr=False)
@@ -167,6 +171,19 @@ class CentralBrachistochrone(Problem):
         """The flow of the equations of the motion in tau and of the curve in psi."""
         return _taylor_form(self, bits)
 
+    @cached_property
+    def near_lowest(self) -> float:
+        """z0 as a float."""
+        return float(self.certified("z0")) if self.z0 is None else float(self.z0)
+
+    def by_route(
+        self, route: str, row: str, arguments: Sequence[Any], digits: int
+    ) -> list[tuple[Fraction, ...]] | None:
+        """None too where the lowest point is so near to the centre that no float tells its passage from psi = pi."""
+        if panels_of(self.field, self.near_lowest).distance(math.pi) < PASSAGE:
+            return None
+        return super().by_route(route, row, arguments, digits)
+
     def within_taylor(self, row: str, arguments: Sequence[Any]) -> bool:
         """Whether every argument is of the first turns of psi, or of a moderate time."""
         over = self.row(row).over
@@ -175,8 +192,8 @@ class CentralBrachistochrone(Problem):
         scales = {"tau": Fraction(1), "time": Fraction(0) if self.unit is None else self.unit[1]}
         if over not in scales:
             return True
-        z0 = Fraction(float(self.certified("z0"))) if self.z0 is None else self.z0
-        limit = TAYLOR_TAU**2 * (1 - z0) * scales[over]
+        depth = 1 - (Fraction(self.near_lowest) if self.z0 is None else self.z0)
+        limit = TAYLOR_TAU**2 * depth * scales[over]
         return all(t >= 0 and t * t <= limit for t in arguments)
 
     def certified(self, row: str, argument: Any = None, component: int = 0) -> Certified:
@@ -224,10 +241,18 @@ class CentralBrachistochrone(Problem):
         return at_start.get(row)
 
     def working_bits(self, arguments: Sequence[Any]) -> int:
-        """The digits of z0 and of 1 - z0, and of whole turns."""
+        """The digits of z0 and 1 - z0, or of the end's distances to the limits of what is reached."""
         del arguments
-        near = self.z0 or Fraction(1, 2)
-        return int(1 / near).bit_length() // 2 + 2 * int(1 / (1 - near)).bit_length()
+        if self.end is None:
+            z0 = self._lowest()
+            return _bits(z0) // 2 + 2 * _bits(1 - z0)
+        radius, angle = self.end
+        return _bits(radius) + _bits(angle) + _bits(self.field.sweep * PI - angle)
+
+
+def _bits(part: Fraction) -> int:
+    """About -log2 of a small number."""
+    return int(1 / abs(part)).bit_length() if part else 0
 
 
 def rational_root(square: Fraction) -> Fraction | None:
@@ -244,8 +269,9 @@ def _form(problem: CentralBrachistochrone, in_balls: bool, bits: int) -> Extrema
     extremal = problem.extremal if in_balls else partial(Numerical, problem.field)
     unit = None if problem.unit is None else (m.number(problem.unit[0]), m.number(problem.unit[1]))
     goal = problem.goal
-    z0 = problem.z0 if goal is None else lowest_point(m, goal, problem.field, extremal)
-    return extremal(m, z0, goal, unit)
+    if goal is None:
+        return extremal(m, problem.z0, None, unit)
+    return extremal(m, lowest_point(m, goal, extremal, exponent_near(goal, problem.extremal)), goal, unit)
 
 
 @lru_cache(maxsize=8)

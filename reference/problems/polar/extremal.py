@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
 from reference.problem import ClosedForm
 from reference.problems.polar.optimality import chord_time, neighbour_excess
-from reference.problems.polar.panels import Panels
+from reference.problems.polar.panels import panels_of
 from reference.problems.polar.periodic import periodic_ball
 
 if TYPE_CHECKING:
@@ -166,7 +166,7 @@ class Extremal(ClosedForm):
         m, (sine, cosine) = self.m, self.last
         psi_end = 2 * m.atan2(sine, cosine)
         excess = neighbour_excess(self.field, self.z0, psi_end, epsilon)
-        strip = Panels(self.field, float(self.z0)).distance(math.pi)
+        strip = panels_of(self.field, float(self.z0)).distance(math.pi)
         found = periodic_ball(excess, [part * strip for part in STRIPS]) if sine == 0 else None
         return m.integral(excess, m.number(Fraction(0)), psi_end) if found is None else found
 

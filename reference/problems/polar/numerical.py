@@ -5,6 +5,7 @@ phi and tau are integrals of their rates in psi, by Gauss's rule over panels; ps
 
 from __future__ import annotations
 
+import cmath
 import math
 from functools import cached_property, lru_cache
 from typing import TYPE_CHECKING, Any
@@ -16,7 +17,7 @@ from reference.arithmetic import MPMATH
 from reference.dual import DualArithmetic
 from reference.problems.polar.extremal import Extremal
 from reference.problems.polar.optimality import chord_geometry, neighbour_rates
-from reference.problems.polar.panels import Panels, Schedule
+from reference.problems.polar.panels import Panels, Schedule, panels_of
 from reference.problems.polar.periodic import periodic_mpmath
 from reference.routes import quadrature
 
@@ -93,7 +94,7 @@ class Numerical(Extremal):
     ) -> None:
         super().__init__(m, z0, end, unit)
         self.field = field
-        self._panels = Panels(field, float(self.z0))
+        self._panels = panels_of(field, float(self.z0))
 
     def rows(self, row: str, arguments: Sequence[Any]) -> list[tuple[Any, ...]]:
         together: dict[str, Callable[[Sequence[Any]], list[tuple[Any, ...]]]]
@@ -167,14 +168,16 @@ class Numerical(Extremal):
     def chord_time(self) -> Any:
         """By the root s of the way from the nearer end of the whole chord: z^2 = 1 - s^2 (2 cos(beta) - s^2)."""
         radius, drop, angle = self.chord
-        length, _, cosine = chord_geometry(self.m, radius, drop, angle)
+        length, sine, cosine = chord_geometry(self.m, radius, drop, angle)
+        nearest = cmath.sqrt(complex(float(cosine), float(sine)))
+        panels = Panels([nearest, -nearest, cmath.sqrt(2 * float(cosine)), -cmath.sqrt(2 * float(cosine))])
+
+        def slowness(s: Any) -> tuple[Any]:
+            rest = 2 * cosine - s * s
+            return (2 * self.field.slowness(self.m, mp.sqrt(1 - s * s * rest)) / mp.sqrt(rest),)
 
         def passed(way: Any) -> Any:
-            def slowness(s: Any) -> Any:
-                rest = 2 * cosine - s * s
-                return 2 * self.field.slowness(self.m, mp.sqrt(1 - s * s * rest)) / mp.sqrt(rest)
-
-            return quadrature.integral(slowness, mp.mpf(0), mp.sqrt(way)) if way else mp.mpf(0)
+            return PathIntegral(panels, slowness).over(mp.mpf(0), mp.sqrt(way))[0]
 
         if length <= cosine:
             return passed(length)
@@ -233,7 +236,7 @@ class Numerical(Extremal):
         schedule, found = Schedule(self.field, float(self.z0)), {}
         psi, phi, tau = mp.mpf(0), mp.mpf(0), mp.mpf(0)
         for wanted in sorted(set(taus)):
-            moved = mp.mpf(schedule.psi_at(float(wanted))) if wanted else psi
+            moved = mp.mpf(schedule.psi_at(float(wanted / self.descent_time))) if wanted else psi
             while abs(moved - psi) > abs(moved) * mp.mpf(2) ** (4 - mp.prec):
                 further = self.path.over(psi, moved)
                 psi, phi, tau = moved, phi + further[0], tau + further[1]

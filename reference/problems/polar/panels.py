@@ -13,9 +13,11 @@ import numpy as np
 from reference.arithmetic import NUMPY
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from reference.problems.polar.extremal import Field
 
-__all__ = ["Panels", "Schedule"]
+__all__ = ["Panels", "Schedule", "panels_of"]
 
 NEARNESS = 4
 """A panel reaches from its middle at most this part of the way to the nearest singularity: per node of Gauss's rule an
@@ -24,23 +26,38 @@ FLOAT_NODES = 12
 
 
 class Panels:
-    """Where the rates of an extremal are singular in complex psi, and the panels that keep away from there."""
+    """The panels of an interval that keep away from the singularities of an integrand in the complex plane.
 
-    def __init__(self, field: Field, z0: float) -> None:
-        squares = (complex(*point) for point in field.singular(NUMPY, z0))
-        first = [2 * cmath.acos(cmath.sqrt(square)) for square in squares]
-        self._singular = first + [2 * math.pi - point for point in first]
+    Of each conjugate pair one point is enough; with a period they repeat.
+    """
 
-    def distance(self, psi: float) -> float:
-        """From a real psi to the nearest singularity."""
-        return min(abs(psi % (2 * math.pi) - point) for point in self._singular)
+    def __init__(self, singular: Sequence[complex], period: float | None = None) -> None:
+        self._singular, self._period = singular, period
+
+    def distance(self, x: float) -> float:
+        """From a real x to the nearest singularity."""
+        if self._period is not None:
+            x %= self._period
+        return min(abs(x - point) for point in self._singular)
 
     def between(self, low: float, high: float) -> list[float]:
         """The ends of the panels from low to high, the first left out."""
         middle = (low + high) / 2
-        if NEARNESS * abs(high - low) <= 2 * self.distance(middle):
+        if NEARNESS * abs(high - low) <= 2 * self.distance(middle) or middle in (low, high):
             return [high]
         return [*self.between(low, middle), *self.between(middle, high)]
+
+
+def panels_of(field: Field, z0: float) -> Panels:
+    """For the rates of an extremal in psi."""
+    squares = (complex(*point) for point in field.singular(NUMPY, inner(z0)))
+    first = [2 * cmath.acos(cmath.sqrt(square)) for square in squares]
+    return Panels(first + [2 * math.pi - point for point in first], 2 * math.pi)
+
+
+def inner(z0: float) -> float:
+    """A lowest point that is neither 0 nor 1 where it is rounded to a float: for guesses, and for distances."""
+    return min(max(z0, 1e-300), 1 - 2.0**-53)
 
 
 @lru_cache(maxsize=1)
@@ -54,8 +71,8 @@ class Schedule:
     """tau at the ends of panels from the release to the lowest point, in floats: where to look for a given tau."""
 
     def __init__(self, field: Field, z0: float) -> None:
-        self._field, self._z0 = field, z0
-        self._psi = [0.0, *Panels(field, z0).between(0.0, math.pi)]
+        self._field, self._z0 = field, inner(z0)
+        self._psi = [0.0, *panels_of(field, z0).between(0.0, math.pi)]
         self._tau = [0.0]
         for low, high in zip(self._psi[:-1], self._psi[1:], strict=True):
             self._tau.append(self._tau[-1] + self._passed(low, high))
@@ -68,10 +85,11 @@ class Schedule:
         half = (high - low) / 2
         return half * float(weights @ np.broadcast_to(self._rate(low + half + half * nodes), nodes.shape))
 
-    def psi_at(self, tau: float) -> float:
-        """psi at a tau within a descent time of 0, to about the accuracy of floats: odd in tau."""
-        if tau < 0:
-            return -self.psi_at(-tau)
+    def psi_at(self, part: float) -> float:
+        """psi at a part of the descent time from -1 to 1, to about the accuracy of floats."""
+        if part < 0:
+            return -self.psi_at(-part)
+        tau = part * self._tau[-1]
         i = min(bisect_right(self._tau, tau), len(self._tau) - 1)
         start, low, high = self._psi[i - 1], self._psi[i - 1], self._psi[i]
         psi = (low + high) / 2

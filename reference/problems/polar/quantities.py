@@ -88,7 +88,7 @@ def _once(of: Definitions) -> tuple[Row, ...]:
             "ddescent_time_dz0",
             "1",
             "sensitivity of descent_time to z0",
-            "sqrt(kappa) d(half_angle)/d(z0), an envelope",
+            "sqrt(kappa) d(half_angle)/d(z0)",
         ),
     )
     of_the_chord = (
