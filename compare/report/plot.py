@@ -49,10 +49,9 @@ def figures(report: Report) -> Iterator[tuple[str, Figure]]:
             for point in sorted(points, key=_effort):
                 if math.isfinite(point.max_error) and point.max_error > 0:
                     curves.setdefault(point.name, []).append(point)
-            known = family(points[0].family)
-            figure, axes = wide_figure(
-                f"{title}, {case}", top=0.92, error=f"largest error of the first component  [{known.units}]"
-            )
+            units = family(points[0].family).units
+            error = f"largest error  [{units}]" if units else "largest error"
+            figure, axes = wide_figure(f"{title}, {case}", top=0.92, error=error)
             draw_curves(axes, curves, ink, work)
             axes.set_xlabel(label)
             yield name, figure

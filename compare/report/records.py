@@ -18,7 +18,7 @@ class WorkPoint:
         name: of the method or solver.
         kind: "method", which takes a number of steps, or "solver", which takes a tolerance.
         setting: the number of steps, or the tolerance.
-        max_error: the largest error of the first component over the sample times; NaN where there is none.
+        max_error: the largest error of the place over the sample times, in the family's units; NaN where there is none.
         floor: whether the error is rounding rather than truncation.
         evaluations: what it took, in its own count; None where it failed.
         seconds: of the march or the call by itself; None where it failed.
@@ -48,6 +48,7 @@ class Report:
         engine: how the work was counted and clocked.
         points: in order of family, amplitude, method or solver, setting.
         missing: packages of solvers that are not here, with what installs them.
+        left_out: methods and solvers by the problem that does not have what they need, such as momenta.
         counts: what the evaluations of a solver are, where they are no calls of the right-hand side.
     """
 
@@ -57,4 +58,5 @@ class Report:
     engine: dict[str, Any]
     points: tuple[WorkPoint, ...]
     missing: dict[str, str]
+    left_out: dict[str, list[str]]
     counts: dict[str, str]

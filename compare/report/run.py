@@ -14,7 +14,7 @@ from compare.report.kept import Kept
 from compare.report.records import Report, WorkPoint
 from compare.report.work import Task, work
 from compare.scores import SAMPLES
-from compare.scoring import some
+from compare.scoring import fits, some
 from compare.solvers.catalogue import SOLVERS, select
 from compare.solvers.solver import CALLS
 from compare.studies.solvers import DEFAULT_LIMIT, DEFAULT_RTOL, facts, questions, tolerances
@@ -29,6 +29,9 @@ if TYPE_CHECKING:
     import os
     from collections.abc import Callable, Iterator, Sequence
 
+    from compare.method import Method
+    from compare.solvers.solver import Question, Solver
+
 __all__ = ["DEFAULT_N", "Plan", "plan", "run"]
 
 DEFAULT_N = tuple(2**k for k in range(7, 18))
@@ -41,11 +44,13 @@ class Plan:
     Attributes:
         tasks: its groups.
         missing: packages of solvers that were asked for and are not here, with what installs them.
+        left_out: methods and solvers by the problem that does not have what they need.
         parameters: what was asked for.
     """
 
     tasks: tuple[Task, ...]
     missing: dict[str, str]
+    left_out: dict[str, list[str]]
     parameters: dict[str, Any]
 
     @property
@@ -82,36 +87,40 @@ def plan(
         TypeError: an argument is of the wrong kind.
     """
     families = FAMILIES if problems is None else tuple(family(name) for name in some(problems, "problems"))
-    marched = [m.name for m in (DEFAULT if methods is None else dict.fromkeys(map(find, _named(methods, "methods"))))]
+    marched = DEFAULT if methods is None else tuple(dict.fromkeys(map(find, _named(methods, "methods"))))
     asked = SOLVERS if solvers is None else select(_named(solvers, "solvers"))
     counts = tuple(sorted({positive(count, "n") for count in some(n, "n")}))
-    groups = [
-        (one.name, amplitude)
-        for one in families
-        for amplitude in (one.amplitudes if amplitudes is None else some(amplitudes, "amplitudes"))
-    ]
-    for name, amplitude in groups:
-        next(questions(family(name).build(amplitude), t_end, rtol, max_evaluations))
-    here = [solver for solver in asked if solver.version is not None]
-    tasks = tuple(
-        Task(name, float(amplitude), who, kind, settings, float(t_end), max_evaluations)
-        for name, amplitude in groups
-        for kind, whose, settings in (
-            ("method", marched, counts),
-            ("solver", [solver.name for solver in here], tuple(tolerances(rtol))),
-        )
-        for who in whose
-    )
+    settings = {"method": counts, "solver": tuple(tolerances(rtol))}
+    tasks: list[Task] = []
+    left_out: dict[str, list[str]] = {}
+    for one in families:
+        for amplitude in one.amplitudes if amplitudes is None else some(amplitudes, "amplitudes"):
+            question = next(questions(one.build(amplitude), t_end, rtol, max_evaluations))
+            for name, kind, suits in _suited(question, marched, asked):
+                if suits:
+                    tasks.append(
+                        Task(one.name, float(amplitude), name, kind, settings[kind], question.end, max_evaluations)
+                    )
+                else:
+                    left_out.setdefault(one.label(amplitude), []).append(name)
     if not tasks:
         raise ValueError("there is nothing to report on: no method and no solver that is installed is asked for.")
     parameters = {
-        "problems": {one.name: [a for name, a in groups if name == one.name] for one in families},
-        "t_end": float(t_end),
+        "problems": list(dict.fromkeys(family(task.family).label(task.amplitude) for task in tasks)),
+        "t_end": tasks[0].t_end,
         "samples": SAMPLES,
         "n": list(counts),
-        "rtol": tolerances(rtol),
+        "rtol": list(settings["solver"]),
     }
-    return Plan(tasks, {s.package: s.install for s in asked if s.version is None}, parameters)
+    return Plan(tuple(tasks), {s.package: s.install for s in asked if s.version is None}, left_out, parameters)
+
+
+def _suited(
+    question: Question, methods: Sequence[Method], solvers: Sequence[Solver]
+) -> Iterator[tuple[str, str, bool]]:
+    """The methods, and the solvers that are here: name, kind, and whether the problem has what they need."""
+    yield from ((method.name, "method", fits(method, question.problem)) for method in methods)
+    yield from ((s.name, "solver", s.solves(question)) for s in solvers if s.version is not None)
 
 
 def _named(names: Sequence[str], what: str) -> Sequence[str]:
@@ -164,6 +173,7 @@ def _report(wanted: Plan, found: dict[Task, tuple[WorkPoint, ...]], where: str) 
         },
         points=tuple(point for task in wanted.tasks for point in found[task]),
         missing=wanted.missing,
+        left_out=wanted.left_out,
         counts={solver.name: solver.counts for solver in SOLVERS if solver.counts != CALLS},
     )
 

@@ -44,9 +44,8 @@ def sections(report: Report, width: int = 100) -> Iterator[Section]:
 def cases(report: Report) -> Iterator[tuple[str, list[WorkPoint]]]:
     """Each problem in words, with its points."""
     for name, amplitude in dict.fromkeys((point.family, point.amplitude) for point in report.points):
-        known = family(name)
         points = [point for point in report.points if (point.family, point.amplitude) == (name, amplitude)]
-        yield f"{name}, {known.symbol} = {amplitude!r} {known.units}", points
+        yield family(name).label(amplitude), points
 
 
 def case_sections(report: Report, title: str, points: Sequence[WorkPoint]) -> Iterator[Section]:
@@ -70,24 +69,28 @@ def _costs(
 
     columns = Column("", left=True), *(Column(f"{target:.0e}") for target in TARGETS)
     rows = tuple((name, *(least(name, t) for t in TARGETS)) for name in dict.fromkeys(p.name for p in points))
-    whole = f"{title}: the least of those measured whose largest error, in {family(points[0].family).units}, is below"
+    units = family(points[0].family).units
+    whole = f"{title}: the least of those measured whose largest error{f', in {units},' if units else ''} is below"
     return Section(grid.slug(title.lower()), whole, (Grid(columns, rows),), "\n".join(notes))
 
 
 def closing(report: Report, width: int) -> Iterator[Section]:
-    """What failed, and what is not installed."""
+    """What failed, what does not fit a problem, and what is not installed."""
     failures: dict[tuple[str, str], list[str]] = {}
     for point in report.points:
         if point.failure:
-            where = f"{point.family} {point.amplitude!r}"
-            failures.setdefault((point.name, point.failure), []).append(where)
-    if failures:
-        columns = Column("", left=True), Column("where", left=True), Column("what it said", left=True)
-        rows = [(name, ", ".join(dict.fromkeys(where)), why) for (name, why), where in failures.items()]
-        yield Section("failures", "What failed", (grid.folded(columns, rows, width),))
-    if report.missing:
-        labels = Column("package", left=True), Column("what installs it", left=True)
-        yield Section("missing-solvers", "Missing", (Grid(labels, tuple(report.missing.items())),))
+            label = family(point.family).label(point.amplitude)
+            failures.setdefault((point.name, point.failure), []).append(label)
+    failed = [(name, "; ".join(dict.fromkeys(where)), why) for (name, why), where in failures.items()]
+    left_out = [(label, ", ".join(names)) for label, names in report.left_out.items()]
+    for name, title, labels, rows in (
+        ("failures", "What failed", ("", "where", "what it said"), failed),
+        ("left-out", "Left out: the problem does not have what they need", ("problem", "for"), left_out),
+        ("missing-solvers", "Missing", ("package", "what installs it"), list(report.missing.items())),
+    ):
+        if rows:
+            columns = [Column(label, left=True) for label in labels]
+            yield Section(name, title, (grid.folded(columns, rows, width),))
 
 
 TABLES = Tables(sections, COLUMNS)

@@ -37,9 +37,9 @@ class SolverCell:
         rtol: the tolerance that was asked for, relative and absolute.
         used: what the solver worked with, on its own dial; NaN where it failed.
         theta0: amplitude in rad.
-        max_error: largest error of the first component, |theta - exact|, over the times, in rad; NaN where it failed.
+        max_error: largest error of the place, |theta - exact|, over the times, in rad; NaN where it failed.
         end_error: the same at the last time.
-        velocity_error: largest error of the other components, |omega - exact|, over the times, in rad/s.
+        velocity_error: largest error of the velocity, |omega - exact|, over the times, in rad/s.
         evaluations: what it took, in the solver's own count; None where it failed.
         seconds: the shortest of a few calls, without what is compiled before the first; None where it failed.
         failure: the solver's own message where it failed, or "".

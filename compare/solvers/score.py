@@ -9,8 +9,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from compare.aspects import aspect_of
+from compare.course import proven
 from compare.precision import precision
-from compare.scores import proven
 from compare.solvers.foreign import Heard, heard
 from compare.solvers.records import EventCell, SolverCell
 
@@ -44,15 +45,16 @@ def score_solver(solver: Solver, questions: Sequence[Question]) -> list[SolverCe
 def _cell(solver: Solver, question: Question, found: Heard[Answer], seconds: float) -> SolverCell:
     answer = found.value
     errors = np.full((1, len(question.start)), np.nan) if answer is None else _errors(question, answer.states)
-    first, others = errors[:, 0], errors[:, 1:]
+    aspect = aspect_of(question.problem)
+    place, velocity = errors[:, list(aspect.places)].max(axis=1), errors[:, list(aspect.rates)]
     return SolverCell(
         solver=solver.name,
         rtol=question.rtol,
         used=math.nan if answer is None else answer.used,
         theta0=float(question.problem.start[0]),
-        max_error=float(first.max()),
-        end_error=float(first[-1]),
-        velocity_error=float(others.max()) if others.size else math.nan,
+        max_error=float(place.max()),
+        end_error=float(place[-1]),
+        velocity_error=float(velocity.max()) if velocity.size else math.nan,
         evaluations=None if answer is None else answer.evaluations,
         seconds=None if answer is None else seconds,
         failure=found.failure,

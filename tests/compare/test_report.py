@@ -19,6 +19,7 @@ from compare.march import march, march_alone
 from compare.methods import find
 from compare.precision import precision
 from compare.report import run as running
+from compare.report.families import family
 from compare.report.kept import Kept
 from compare.report.page import files, page
 from compare.report.records import Report, WorkPoint
@@ -152,12 +153,25 @@ def test_methods_and_solvers_are_measured_against_the_same_truth():
     assert (fixed[0].evaluations, fixed[0].failure, adaptive[0].failure) == (4 * 4096, "", "")
 
 
-def test_a_method_that_does_not_fit_a_problem_is_reported_and_others_go_on():
-    wanted = plan(**{**SMALL, "problems": ["tautochrone"], "amplitudes": [1.0], "solvers": (), "n": [256]})
-    points = [point for task in wanted.tasks for point in work(task)]
-    assert [point.name for point in points if not point.failure] == ["rk4"]
-    assert "is not separable" in points[-1].failure
-    assert points[-1].evaluations is None
+def test_what_does_not_fit_a_problem_is_left_out_and_named():
+    wanted = plan(**{**SMALL, "problems": ["tautochrone"], "amplitudes": [1.0]})
+    assert [task.name for task in wanted.tasks] == ["rk4", "scipy.DOP853", "heyoka.taylor"]
+    assert wanted.left_out == {"tautochrone, angle = 1.0 rad": ["verlet"]}
+    assert [point.failure for task in wanted.tasks for point in work(task)] == [""] * 6
+
+
+def test_a_method_that_cannot_march_a_problem_is_reported_in_a_sentence():
+    (failed,) = work(Task("tautochrone", 1.0, "verlet", "method", (256,), 3.0, 100_000))
+    assert "is not separable" in failed.failure
+    assert failed.evaluations is None
+
+
+def test_the_error_of_a_solver_is_that_of_a_method():
+    fixed = work(Task("polar", 0.5, "rk4", "method", (4096,), 3.0, 100_000))
+    adaptive = work(Task("polar", 0.5, "heyoka.taylor", "solver", (1e-4,), 3.0, 100_000))
+    truth = family("polar").build(0.5).state([Fraction(3)])[0]
+    assert abs(truth[2]) > 1
+    assert 0 < fixed[0].max_error < 1e-9 < adaptive[0].max_error < 1e-2
 
 
 def point(name, setting, error, evaluations, seconds=1e-3, **options):
@@ -180,6 +194,7 @@ MADE = Report(
         point("broken", 1e-4, math.nan, None, None, kind="solver", failure="no convergence"),
     ),
     missing={"absent": "pip install absent"},
+    left_out={"moon, z = 2.0": ["verlet", "yoshida4"]},
     counts={"lazy": "evaluations of something else", "unasked": "nothing"},
 )
 
@@ -198,7 +213,8 @@ def test_a_cost_is_the_least_that_was_measured_below_an_error():
 
 
 def test_what_failed_and_what_is_missing_is_said_once():
-    assert rows("What failed") == {"broken": ("pendulum 1.0", "no convergence")}
+    assert rows("What failed") == {"broken": ("pendulum, theta0 = 1.0 rad", "no convergence")}
+    assert rows("Left out") == {"moon, z = 2.0": ("verlet, yoshida4",)}
     assert rows("Missing") == {"absent": ("pip install absent",)}
 
 
