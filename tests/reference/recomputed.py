@@ -197,7 +197,7 @@ def race(given: dict[str, Any], argument: Any) -> Values:
             near = mp.findroot(
                 lambda s: passage(name, s * s, g) - t, (mp.mpf("0.01") * t / whole, mp.mpf(1)), solver="illinois"
             )
-        return mp.findroot(lambda s: passage(name, s * s, g) - t, near) ** 2
+        return mp.findroot(lambda s: passage(name, s * s, g) - t, (near, near * (1 - mp.mpf(2) ** -50))) ** 2
 
     found: Values = {
         "descent_time": lambda: passage(name, mp.mpf(1), g),

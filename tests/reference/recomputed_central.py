@@ -136,7 +136,7 @@ def polar_boundary(given: dict[str, Any], _: Any) -> Values:
             near = mp.findroot(
                 lambda x: end(radius * x)[0] - angle, (mp.mpf("1e-6"), 1 - mp.mpf("1e-12")), solver="illinois"
             )
-        return radius * mp.findroot(lambda x: end(radius * x)[0] - angle, near)
+        return radius * mp.findroot(lambda x: end(radius * x)[0] - angle, (near, near * (1 - mp.mpf(2) ** -60)))
 
     return {
         "z0": lowest,

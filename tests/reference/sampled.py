@@ -17,18 +17,28 @@ if TYPE_CHECKING:
 
 __all__ = ["elements", "misrounded"]
 
+SLOW = (
+    *(f"race/{name}" for name in ("x", "y", "speed", "velocity_x", "velocity_y")),
+    *(f"motion/{name}" for name in ("z", "z_rate", "phi")),
+    *(f"{group}/{name}" for group in ("family", "boundary") for name in ("chord_time", "chord_gap")),
+    "boundary/z0",
+    "boundary/arrival_time",
+    "neighbour_gap",
+)
+"""Variables that take an integral in mpmath, or many, for each element."""
+SLOWER = 12
 BITS = 3 * 159
 GUARD_BITS = 240
 """What times up to 2^30, angles close to pi and differences of like numbers may cost."""
 
 
 def elements(dataset: Dataset, each: int, rng: random.Random) -> Iterator[tuple[Variable, tuple[int, ...]]]:
-    """At most ``each`` elements of every variable, at random places."""
+    """At most ``each`` elements of every variable, at random places; fewer where one takes a second or more."""
     for variable in dataset.values():
         if variable.is_input:
             continue
-        size = variable.value.size
-        for flat in rng.sample(range(size), min(each, size)):
+        size, wanted = variable.value.size, -(-each // SLOWER) if variable.name.endswith(SLOW) else each
+        for flat in rng.sample(range(size), min(wanted, size)):
             index = []
             for length in reversed(variable.shape):
                 flat, place = divmod(flat, length)  # noqa: PLW2901 - digits of the number, the last axis first
