@@ -1,6 +1,6 @@
 """Count misrounded elements of the core dataset: random ones of every variable, each computed again in another way.
 
-    python tests/benchmarks/recomputed_dataset.py [EACH]    (default 240 of most variables, more than ten thousand in all)
+    python tests/benchmarks/recomputed_dataset.py [EACH]   (default 240 of most variables: ten thousand and more)
 
 The other way shares no formula with the package where a second one exists, and works at three times the precision.
 """
