@@ -38,11 +38,13 @@ def floors_of(method: Method, courses: Sequence[Course], errors: Sequence[np.nda
     for i, course in enumerate(courses):
         places.setdefault(course.problem, []).append(i)
     floors = [False] * len(courses)
+    lanes = [course.lane for course in courses]
     while waiting := _coarsest(places, doubtful):
         neighbours = [courses[i].neighbour for i in waiting]
-        marches = march(method, [neighbour.lane for neighbour in neighbours], fmt)
+        marches = march(method, [neighbour.lane for neighbour in neighbours], fmt, among=lanes)
         for i, neighbour, result in zip(waiting, neighbours, marches, strict=True):
             noise = float(np.max(courses[i].place(errors[i] - neighbour.errors(result.states))))
+            noise += courses[i].carried(errors[i])
             doubtful[i] = False
             if largest[i] <= FLOOR_FACTOR * noise and noise <= courses[i].roundings:
                 members = places[courses[i].problem]

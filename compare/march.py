@@ -34,7 +34,10 @@ __all__ = ["Lane", "March", "StartInvariant", "iterations_for", "march", "march_
 
 SHORT_BLOCK = 8
 BLOCK_SIZE, WIDE_BLOCK_SIZE = 256, 32
-"""Evaluations in a compiled block, about: many where a call costs as much as hundreds of steps, few in wide formats."""
+"""Evaluations in a compiled block at most, about; few in wide formats, where a call costs no more than an operation."""
+CALL_SECONDS, COMPILE_SECONDS = 6e-6, 6e-5
+"""Of one call of a block, and of compiling an evaluation for one lane of a batch: a longer block saves the one and
+costs the other."""
 JACOBIAN_SIZE, JACOBIAN_BATCH = 3, 16
 """A Jacobian and what is solved with it is code for so many evaluations, and fills the registers of so many lanes."""
 INLINE_SINE = 10**9
@@ -45,29 +48,26 @@ CONVERGED = 1000
 """A last iteration may change the state by this many roundings."""
 
 
-def _block_steps(grain: int, size: int, fmt: Precision, opening: int) -> int:
-    """Steps that one compiled block takes: a divisor of the grain that keeps the block's code of moderate length."""
-    shortest = 1 << max(opening - 1, 0).bit_length()
-    room = BLOCK_SIZE if fmt.lanes > 1 else WIDE_BLOCK_SIZE
-    while grain > shortest and grain * size > room:
-        grain //= 2
-    return grain
-
-
 def iterations_for(method: Method, problem: Problem, h: float, bits: int) -> int:
     """Iterations that bring the equations of an implicit step to rounding; 0 for an explicit method."""
     return method.iterations(max(h * problem.rate(), sys.float_info.min), bits)
 
 
-def march(method: Method, lanes: Sequence[Lane], fmt: Precision) -> list[March]:
+def march(method: Method, lanes: Sequence[Lane], fmt: Precision, among: Sequence[Lane] | None = None) -> list[March]:
     """March every lane, and return what each gave, in order.
+
+    Args:
+        method: what takes the steps.
+        lanes: what is marched.
+        fmt: in which numbers.
+        among: lanes for which blocks have been compiled, to be used again for these; none if None.
 
     Raises:
         ValueError: the problem lacks what the method needs: positions apart from momenta, or an invariant.
         TraceError: the compiled step is not the plain one.
     """
     results: dict[int, March] = {}
-    for members, group in _groups(method, lanes, fmt):
+    for members, group in _groups(method, lanes, fmt, among):
         results.update(zip(members, group.run(), strict=True))
     return [results[i] for i in range(len(lanes))]
 
@@ -91,22 +91,33 @@ def march_alone(method: Method, lanes: Sequence[Lane], fmt: Precision) -> list[t
     return [results[i] for i in range(len(lanes))]
 
 
-def _groups(method: Method, lanes: Sequence[Lane], fmt: Precision) -> Iterator[tuple[list[int], _Group]]:
+def _groups(
+    method: Method, lanes: Sequence[Lane], fmt: Precision, among: Sequence[Lane] | None = None
+) -> Iterator[tuple[list[int], _Group]]:
     """The lanes, by their places, that share a compiled block, in order of falling N; each with its group."""
-    groups: dict[Any, list[int]] = defaultdict(list)
+    groups = _sorted(method, lanes, fmt)
+    known = groups if among is None else _sorted(method, among, fmt)
+    for key, members in groups.items():
+        mine = [lanes[i] for i in members]
+        shared = [among[i] for i in known[key]] if among is not None and key in known else mine
+        _, grain, iterations = key
+        yield members, _Group(method, mine, fmt, _Shape.of(method, shared, fmt, grain, iterations))
+
+
+def _sorted(method: Method, lanes: Sequence[Lane], fmt: Precision) -> dict[tuple[_Equation, int, int], list[int]]:
+    """The places of the lanes that can share a block, by (equation, grain, iterations), in order of falling N."""
+    groups: dict[tuple[_Equation, int, int], list[int]] = defaultdict(list)
     for i, lane in enumerate(lanes):
         if method.separable_only and not getattr(lane.problem, "positions", 0):
             raise ValueError(f"{method.name} needs positions apart from momenta; {lane.problem.name} is not separable.")
         if method.family == "conservative" and not conserves(lane.problem):
             raise ValueError(f"{method.name} keeps an invariant, and {lane.problem.name} has none.")
         iterations = iterations_for(method, lane.problem, float(lane.h), fmt.bits)
-        grain = grain_of(lane.n)
-        if any(step % grain for step in lane.samples):
-            grain = 1
+        grain = 1 if any(step % grain_of(lane.n) for step in lane.samples) else grain_of(lane.n)
         groups[_Equation.of(lane.problem), grain, iterations].append(i)
-    for (_, grain, iterations), members in groups.items():
+    for members in groups.values():
         members.sort(key=lambda i: -lanes[i].n)
-        yield members, _Group(method, [lanes[i] for i in members], fmt, grain, iterations)
+    return groups
 
 
 @dataclass(frozen=True)
@@ -122,32 +133,57 @@ class _Equation:
         return cls(type(problem), getattr(problem, "curve", None), problem)
 
 
+@dataclass(frozen=True)
+class _Shape:
+    """What a compiled block is for: how many steps and lanes it takes at once, what it gives, how it solves."""
+
+    steps: int
+    batch: int
+    record: Record
+    iterations: int
+    inline_sine: bool
+
+    @classmethod
+    def of(cls, method: Method, lanes: Sequence[Lane], fmt: Precision, grain: int, iterations: int) -> _Shape:
+        """The shape that suits lanes in order of falling N."""
+        evaluations, jacobians = method.evaluations(iterations)[0], method.jacobians(iterations)
+        inline = fmt.type is float and sum(lane.n for lane in lanes) * evaluations >= INLINE_SINE
+        size = evaluations * (4 if inline else 1) + jacobians * JACOBIAN_SIZE
+        lasting = sum(8 * lane.n >= lanes[0].n for lane in lanes)
+        batch = min(fmt.lanes, 1 << (max(lasting, 8) - 1).bit_length(), JACOBIAN_BATCH if jacobians else fmt.lanes)
+        balance = math.sqrt(2 * lanes[0].n * CALL_SECONDS / (COMPILE_SECONDS * batch * size))
+        room = min(BLOCK_SIZE / size, max(balance, SHORT_BLOCK)) if fmt.lanes > 1 else WIDE_BLOCK_SIZE / size
+        steps = SHORT_BLOCK if grain == 1 else grain
+        while steps > max(room, method.opening, 1):
+            steps //= 2
+        return cls(steps, batch, "every" if grain == 1 else "last", iterations, inline)
+
+
 @lru_cache(maxsize=64)
-def _compiled(method: Method, equation: _Equation, *shape: Any, inline_sine: bool) -> Block:
+def _compiled(method: Method, equation: _Equation, fmt: Precision, shape: _Shape) -> Block:
     """``compile_block``, kept: a study comes back to the same block with other lanes."""
-    return compile_block(method, equation.problem, *shape, inline_sine=inline_sine)
+    return compile_block(
+        method,
+        equation.problem,
+        fmt,
+        shape.steps,
+        shape.record,
+        shape.batch,
+        shape.iterations,
+        inline_sine=shape.inline_sine,
+    )
 
 
 class _Group:
     """Lanes in order of falling N, marched in lockstep by one compiled block until the longest has ended."""
 
-    def __init__(self, method: Method, lanes: Sequence[Lane], fmt: Precision, grain: int, iterations: int) -> None:
-        self.method, self.lanes, self.fmt, self.iterations = method, lanes, fmt, iterations
-        problem = lanes[0].problem
-        self.every = grain == 1
-        evaluations, jacobians = method.evaluations(iterations)[0], method.jacobians(iterations)
-        inline = fmt.type is float and sum(lane.n for lane in lanes) * evaluations >= INLINE_SINE
-        size = evaluations * (4 if inline else 1) + jacobians * JACOBIAN_SIZE
-        self.steps = _block_steps(SHORT_BLOCK if self.every else grain, size, fmt, method.opening)
-        lasting = sum(8 * lane.n >= lanes[0].n for lane in lanes)
-        batch = min(fmt.lanes, 1 << (max(lasting, 8) - 1).bit_length())
-        self.batch = min(batch, JACOBIAN_BATCH) if jacobians else batch
-        self.dimension = len(problem.state_names)
+    def __init__(self, method: Method, lanes: Sequence[Lane], fmt: Precision, shape: _Shape) -> None:
+        self.method, self.lanes, self.fmt = method, lanes, fmt
+        self.every, self.steps, self.batch = shape.record == "every", shape.steps, shape.batch
+        self.iterations = shape.iterations
+        self.dimension = len(lanes[0].problem.state_names)
         self.ends = np.array([lane.n for lane in lanes])
-        record: Record = "every" if self.every else "last"
-        self.block = _compiled(
-            method, _Equation.of(problem), fmt, self.steps, record, self.batch, iterations, inline_sine=inline
-        )
+        self.block = _compiled(method, _Equation.of(lanes[0].problem), fmt, shape)
         self.states = self._room(lanes)
         self.maxima = np.zeros((len(lanes), 2))
         self.seconds = math.nan

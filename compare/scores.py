@@ -6,6 +6,7 @@ Every error is taken at exactly t = n h, where the march stands; h is the float 
 from __future__ import annotations
 
 import math
+from functools import lru_cache
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -23,6 +24,7 @@ if TYPE_CHECKING:
     from compare.march import March
     from compare.method import Method
     from compare.precision import Precision
+    from reference.problem import Problem
 
 __all__ = [
     "SAMPLES",
@@ -146,21 +148,25 @@ def _digits(relative: float, bits: int) -> float:
 
 
 def _drift(method: Method, course: Course, result: March) -> Drift:
-    problem = course.problem
-    period = period_of(problem)
-    cycles = np.array([float(time) for time in course.times]) / (period if math.isfinite(period) else 1.0)
+    period, energy = _scales(course.problem)
+    cycles = np.array(course.steps) * (float(course.h) / (period if math.isfinite(period) else 1.0))
     slope, interval = slope_with_interval(cycles, course.drift(result.states))
-    energy = abs(float(problem.certified("energy"))) if problem.serves("energy") else course.level
     return Drift(
         method=method.name,
         n=course.n,
         h=float(course.h),
         case=course.case,
         max_drift_above_rest=_ratio(result.max_drift, course.level),
-        max_drift_relative=_ratio(result.max_drift, energy),
+        max_drift_relative=_ratio(result.max_drift, course.level if energy is None else energy),
         slope_per_period=slope,
         slope_interval=interval,
     )
+
+
+@lru_cache(maxsize=256)
+def _scales(problem: Problem) -> tuple[float, float | None]:
+    """The period, and the absolute value of the energy where the problem has one besides its invariant."""
+    return period_of(problem), abs(float(problem.certified("energy"))) if problem.serves("energy") else None
 
 
 def _ratio(drift: float, scale: float) -> float:

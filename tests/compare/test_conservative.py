@@ -152,3 +152,12 @@ def test_a_problem_without_canonical_variables_keeps_its_energy_too(method: Meth
     lanes = [Lane(body, n, Fraction(1, n), (n,)) for n in (64, 1024)]
     coarse, fine = march(method, lanes, FLOAT64)
     assert 0 < np.max(np.abs(coarse.states - fine.states)) < 1e-3
+
+
+@by_name
+def test_a_problem_without_an_invariant_is_refused(method: Method) -> None:
+    class Driven(RigidBody):
+        invariant = Problem.invariant
+
+    with pytest.raises(ValueError, match=f"{method.name} keeps an invariant, and rigid body has none"):
+        march(method, [Lane(Driven(), 64, Fraction(1, 64), (64,))], FLOAT64)

@@ -131,7 +131,7 @@ def test_a_splitting_needs_a_separable_problem() -> None:
     class Whole(Pendulum):
         positions = 0
 
-    with pytest.raises(ValueError, match="verlet splits kicks from drifts, and pendulum is not separable"):
+    with pytest.raises(ValueError, match="verlet needs positions apart from momenta; pendulum is not separable"):
         march(find("verlet"), [lane(100, Whole(1.0))], FLOAT64)
 
 
