@@ -21,7 +21,6 @@ from reference.terminal import run
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
 
-    from compare.records import Study
     from compare.solvers.records import SolverStudy
 
 __all__ = ["main"]
@@ -105,17 +104,19 @@ def _score(request: Request) -> None:
             _print(piece)
 
 
-def _study(request: Request, progress: Callable[[str], None] | None) -> Study:
-    from compare.studies import pendulum
+def _study(request: Request, progress: Callable[[str], None] | None) -> Any:
+    """The study of a family, on a process pool where that is worth it."""
+    from compare.scoring import DEFAULT_N
     from reference.executors import processes
 
+    family: Any = import_module(f"compare.studies.{request.command}")
     others = (os.cpu_count() or 1) - 1
-    if not others or sum(request.options.get("n", pendulum.DEFAULT_N)) < WORTH_PROCESSES:
-        return pendulum.study(**request.options, traces=request.plots, progress=progress)
+    if not others or sum(request.options.get("n", DEFAULT_N)) < WORTH_PROCESSES:
+        return family.study(**request.options, traces=request.plots, progress=progress)
     with processes(others) as executor:
         for _ in range(others):
-            executor.submit(import_module, pendulum.__name__)  # they import while the truth is computed here
-        return pendulum.study(**request.options, traces=request.plots, progress=progress, executor=executor)
+            executor.submit(import_module, family.__name__)  # they import while the truth is computed here
+        return family.study(**request.options, traces=request.plots, progress=progress, executor=executor)
 
 
 def _solver_study(request: Request, progress: Callable[[str], None] | None) -> SolverStudy:

@@ -5,10 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from compare import reading
 from compare.judge import options as judge
 from compare.report import options as report
 from compare.solvers import options as solvers
+from compare.studies import options as studies
 from compare.submission import options as submission
 from compare.table import FORMATS
 from reference.terminal import Parser, one_of
@@ -21,6 +21,10 @@ __all__ = ["COMMANDS", "Request", "parse"]
 
 COMMANDS = {
     "pendulum": "score integrators on the pendulum: error against N, observed order, energy drift",
+    "brachistochrone": "score them on the cycloid of quickest descent: as a motion, and as a curve dx/dy",
+    "tautochrone": "score them on Huygens' pendulum: by its angle, and by its arc length",
+    "descent": "score them on the descent along a curve without friction",
+    "polar": "score them on the brachistochrone of a point mass: in time, in z and in psi",
     "list": "list the methods: family, order, stages, source",
     "show": "show a method: its tableau or its flows, its proven order, its properties",
     "report": "one page of work and precision: methods and solvers over problems and amplitudes",
@@ -29,26 +33,10 @@ COMMANDS = {
     "check": "measure whether your integrator is what it claims to be",
 }
 
-_OPTIONS: dict[str, tuple[str | None, str]] = {
-    "--theta0": ("A,B", "amplitudes in rad, between 0 and pi (default 1); may repeat"),
-    "--g": ("G", "gravity in m/s^2 (default 9.81)"),
-    "--length": ("L", "length in m (default 1)"),
-    "--t-end": ("T", "end of the march in s (default 10)"),
-    "--methods": ("A,B", "methods by name (default twelve; see 'list'); may repeat"),
-    "--n": ("N,M", "numbers of steps (default 128, 256, ... 1048576); may repeat"),
-    "--exact": (None, "take numbers as written: decimals, or fractions such as 1/3"),
-    "--precision": ("P", "float32, float64 (default), longdouble, float128 or mp:BITS"),
-    "--format": ("FORM", f"{', '.join(FORMATS)} (default text)"),
-    "--out": ("DIR", "also write the tables, in the chosen format, into this folder"),
-    "--plots": (None, "also draw PNG and SVG figures (into DIR, or ./horologium-pendulum)"),
-    "--quiet": (None, "nothing on stderr but errors; the tables are printed as ever"),
-}
-_ROOMS: dict[str, Any] = {"solvers": solvers, "report": report, "check": judge}
+_ROOMS: dict[str, Any] = {**studies.ROOMS, "solvers": solvers, "report": report, "check": judge}
 """Commands whose options stand in a room of their own."""
-_ACCEPTED = {"pendulum": tuple(_OPTIONS), "list": ("--format",)}
-_LISTS = ("--theta0", "--methods", "--n")
 _SHOWN = tuple(form for form in FORMATS if form != "csv")
-_SHOWN_HELP = f"{', '.join(_SHOWN)} (default text)"
+_FORMATS_HELP, _SHOWN_HELP = f"{', '.join(FORMATS)} (default text)", f"{', '.join(_SHOWN)} (default text)"
 _EPILOG = (
     "A number is read as binary64, as in a program, or with --exact as written.  "
     "A mistake is one sentence on stderr and exit code 2."
@@ -87,7 +75,7 @@ def parse(words: Sequence[str]) -> Request:
         raise ValueError(f"no command is given; {_alternatives(tuple(COMMANDS))} is accepted.")
     known = _parser(words).parse_args(words)
     read: dict[str, Callable[[argparse.Namespace], dict[str, Any]]]
-    read = {"pendulum": _study_options, "score": submission.options, "show": _shown_method}
+    read = {"score": submission.options, "show": _shown_method}
     read |= {command: room.options for command, room in _ROOMS.items()}
     return Request(
         command=known.command,
@@ -114,38 +102,15 @@ def _parser(words: Sequence[str] = ("score",)) -> Parser:
             one.add_argument(
                 "--format", type=one_of("format", _SHOWN), default="text", metavar="FORM", help=_SHOWN_HELP
             )
-        for option in _ACCEPTED.get(command, ()):
-            _add(one, option)
+        if command == "list":
+            one.add_argument(
+                "--format", type=one_of("format", FORMATS), default="text", metavar="FORM", help=_FORMATS_HELP
+            )
     return parser
-
-
-def _add(parser: argparse.ArgumentParser, option: str) -> None:
-    metavar, text = _OPTIONS[option]
-    if option == "--format":
-        parser.add_argument(option, type=one_of("format", FORMATS), default="text", metavar=metavar, help=text)
-    elif metavar is None:
-        parser.add_argument(option, action="store_true", help=text)
-    else:
-        parser.add_argument(option, action="append" if option in _LISTS else "store", metavar=metavar, help=text)
 
 
 def _shown_method(known: argparse.Namespace) -> dict[str, Any]:
     return {"method": known.method}
-
-
-def _study_options(known: argparse.Namespace) -> dict[str, Any]:
-    number = reading.as_written if known.exact else reading.number
-    given: dict[str, Any] = {
-        name: reading.several(name, getattr(known, name), read)
-        for name, read in (("theta0", number), ("methods", reading.text), ("n", reading.whole))
-        if getattr(known, name) is not None
-    }
-    for name in ("g", "length", "t_end"):
-        if getattr(known, name) is not None:
-            given[name] = number(getattr(known, name), name.replace("_", "-"))
-    if known.precision is not None:
-        given["precision"] = known.precision
-    return given
 
 
 def _alternatives(names: Sequence[str]) -> str:

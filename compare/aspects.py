@@ -49,6 +49,8 @@ class Aspect:
         angle: the unit in which errors of the place are left as they are; "" where each component is measured by its
             own largest value.
         odd: the components that change their sign with that of time; None where turning back means nothing.
+        along: the component that the others are a function of, which is marched with them and rounded too; None where
+            the time stands outside of the state.
         invariant: what the conserved quantity is called in the title of a table, and its change in units of itself.
         trial: where a compiled step is tried.
     """
@@ -57,6 +59,7 @@ class Aspect:
     rates: tuple[int, ...] = (1,)
     angle: str = ""
     odd: tuple[int, ...] | None = (1,)
+    along: int | None = None
     invariant: tuple[str, str] = ("Energy", "(E - E0)/(E0 - Emin)")
     trial: Trial = Trial()
 
@@ -74,12 +77,18 @@ _ASPECTS = {
     "descent": Aspect(trial=Trial(states=((0.2, 0.5), (0.0, 0.5)), step=(0.001, 0.005))),
     "polar": _CENTRAL,
     "tunnel": _CENTRAL,
-    "cycloid arc": Aspect(rates=(), odd=None, trial=Trial(states=((-3.0, 3.0), (0.1, 0.6)), step=(0.001, 0.005))),
+    "cycloid arc": Aspect(
+        rates=(), odd=None, along=1, trial=Trial(states=((-3.0, 3.0), (0.1, 0.6)), step=(0.001, 0.005))
+    ),
     "polar curve in z": Aspect(
-        rates=(), odd=None, trial=Trial(((-3.0, 3.0), (0.1, 0.2)), {"z0": (0.2, 0.4)}, step=(0.001, 0.002))
+        rates=(), odd=None, along=1, trial=Trial(((-3.0, 3.0), (0.1, 0.2)), {"z0": (0.2, 0.4)}, step=(0.001, 0.002))
     ),
     "polar curve in psi": Aspect(
-        places=(0, 1), rates=(), odd=None, trial=Trial(((-3.0, 3.0), (-3.0, 3.0), (0.5, 6.0)), {"z0": (0.2, 0.8)})
+        places=(0, 1),
+        rates=(),
+        odd=None,
+        along=2,
+        trial=Trial(((-3.0, 3.0), (-3.0, 3.0), (0.5, 6.0)), {"z0": (0.2, 0.8)}),
     ),
 }
 

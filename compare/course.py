@@ -104,12 +104,34 @@ class Course:
     def roundings(self) -> float:
         """How far N roundings of the place can lead, carried along as the exact motion carries them.
 
-        The exact motion's growth is that of the distance between this course and its neighbour.
+        The exact motion's growth is that of the distance between this course and its neighbour; along a curve besides
+        it is what a rounding of the coordinate makes of the place.
         """
         places = list(self.aspect.places)
         gap = np.max(np.abs(self.truth[:, :, 0] - self.neighbour.truth[:, :, 0]), axis=0) / self.sizes
         growth = 1 + float(np.max(gap[places])) / (self._apart or 1.0)
+        if self.aspect.along is not None:
+            growth += float(np.max(self._slopes)) * self.sizes[self.aspect.along]
         return 8 * self.n * self.fmt.epsilon * growth * float(np.max((self.sizes / self.units)[places]))
+
+    @cached_property
+    def _slopes(self) -> np.ndarray:
+        """How fast the place changes with the component that it is a function of, in its unit; zeros without one."""
+        aspect, problem = self.aspect, self.problem
+        if aspect.along is None:
+            return np.zeros(len(self.times))
+        parameters = {name: float(value) for name, value in problem.parameters.items()}
+        slopes = problem.derivative(NUMPY, tuple(self.truth[:, :, 0].T), parameters)
+        largest: np.ndarray = np.max([np.abs(slopes[i]) / self.units[i] for i in aspect.places], axis=0)
+        return largest
+
+    def carried(self, errors: np.ndarray) -> float:
+        """What errors [samples, state] of the component that the place is a function of make of the place.
+
+        They are of rounding alone, and the same in a neighbour.
+        """
+        along = self.aspect.along
+        return 0.0 if along is None else float(np.max(self._slopes * np.abs(errors[:, along])))
 
     @cached_property
     def _apart(self) -> float:

@@ -10,7 +10,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
     from fractions import Fraction
 
-__all__ = ["as_written", "number", "several", "text", "whole"]
+__all__ = ["as_written", "number", "pair", "several", "text", "whole"]
 
 
 def several(name: str, words: Sequence[str], read: Callable[[str, str], Any]) -> tuple[Any, ...]:
@@ -55,6 +55,18 @@ def as_written(piece: str, name: str) -> Fraction:
     from reference.exact import exact
 
     return exact(piece, f"--{name}")
+
+
+def pair(piece: str, name: str, read: Callable[[str, str], Any]) -> tuple[Any, Any]:
+    """Two values with a comma between them.
+
+    Raises:
+        ValueError: there are not two, or one cannot be read.
+    """
+    parts = piece.split(",")
+    if len(parts) != 2:
+        raise ValueError(f"--{name} is '{short(piece)}'; two numbers with a comma between them are accepted, as 2,1.")
+    return read(parts[0].strip(), name), read(parts[1].strip(), name)
 
 
 def whole(piece: str, name: str, what: str = "number of steps") -> int:

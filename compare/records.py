@@ -264,7 +264,6 @@ class Study:
         engine: how the numbers were marched: precision, compiler, what a rounding floor belongs to.
         cases: the problems.
         scores: what is to be shown, of ``compare.wanted.SCORES``.
-        notes: sentences on what could not be scored.
         phase, growth, period, defects: None where they were not asked for.
     """
 
@@ -277,7 +276,6 @@ class Study:
     order: tuple[FittedOrder, ...]
     energy_drift: tuple[Drift, ...]
     scores: tuple[str, ...] = ("error", "drift")
-    notes: tuple[str, ...] = ()
     phase: tuple[Phase, ...] | None = None
     growth: tuple[Growth, ...] | None = None
     period: tuple[OwnPeriod, ...] | None = None

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
@@ -107,7 +107,7 @@ def score_all(
     executor: Executor | None = None,
     progress: Callable[[str], None] | None = None,
     *,
-    compensated: bool = False,
+    compensated: bool | Literal["beside"] = False,
     scores: Sequence[str] = DEFAULT_SCORES,
 ) -> Scored:
     """March methods over 0 <= t <= t_end of each problem in each number of steps, and score them.
@@ -122,7 +122,8 @@ def score_all(
         precision: a format of ``compare.precision``.
         executor: where the methods are marched, such as a process pool; in this process if None.
         progress: called with each method's name when it is done.
-        compensated: whether every step's additions to the state are compensated for rounding.
+        compensated: whether every step's additions to the state are compensated for rounding; "beside" marches each
+            method both ways.
         scores: what is scored, of ``compare.wanted.SCORES``.
 
     Raises:
@@ -134,7 +135,8 @@ def score_all(
     fmt, wanted = find_precision(precision), chosen_scores(some(scores, "scores"))
     chosen = DEFAULT if methods is None else tuple(dict.fromkeys(find(name) for name in some(methods, "methods")))
     if compensated:
-        chosen = tuple(compensate(method) for method in chosen)
+        twins = [(compensate(method),) if compensated is True else (method, compensate(method)) for method in chosen]
+        chosen = tuple(method for both in twins for method in both)
     ends = _ends(t_end, len(problems))
     samples = GROWTH_SAMPLES if "growth" in wanted else SAMPLES
     counts = _step_counts(n)

@@ -14,7 +14,7 @@ from compare.scoring import fits, score_all
 from reference import __version__
 from reference.certify import ROUTES
 from reference.compiler import hy
-from reference.exact import as_number
+from reference.names import unknown
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -23,44 +23,44 @@ if TYPE_CHECKING:
     from compare.scoring import Scored
     from reference.problem import Problem
 
-__all__ = ["TRACE_N", "distinct", "made"]
+__all__ = ["SHORTER_N", "TRACE_N", "distinct", "forms_of", "made"]
 
+SHORTER_N = tuple(2**k for k in range(7, 18))
+"""Numbers of steps for families that take longer than the pendulum, or are shown in several forms."""
 TRACE_N = 256
 TRACE_SAMPLES = TRACE_N
 
 
 def made(
-    name: str, problems: Sequence[Problem], definition: str, parameters: dict[str, Any], *, traces: bool, **options: Any
+    name: str, problems: Sequence[Problem], definition: Any, parameters: dict[str, Any], *, traces: bool, **options: Any
 ) -> Study:
     """Score methods on the problems, and put the study together.
 
     Args:
         name: of the study.
         problems: what the methods are marched on.
-        definition: the equation, in a line.
-        parameters: what the header says of the problems.
+        definition: the equation in a line, or one for each form.
+        parameters: what the header says of the problems, and where their marches end.
         traces: whether to keep trajectories for plots, in TRACE_N steps.
         options: of ``score_all``.
     """
     scored = score_all(problems, **options)
     kept, exact_orbits = _traces(scored) if traces else ((), ())
-    ends = [as_number(end) for end in dict.fromkeys(scored.t_ends)]
     return Study(
         problem=name,
-        parameters={**parameters, "t_end": ends[0] if len(ends) == 1 else ends, "samples": scored.samples},
+        parameters={**parameters, "samples": scored.samples},
         reference={
             "version": __version__,
             "routes": ["enclosure", *ROUTES],
-            "definition": definition,
+            "definition": definition if isinstance(definition, str) else "; ".join(map(": ".join, definition.items())),
             "truth": "the state at exactly t = n h, proven correctly rounded; h is t_end/N rounded to the format",
         },
-        engine=_engine(scored.fmt),
+        engine={**_engine(scored.fmt), **_notes(scored)},
         cases=scored.cases,
         error_vs_n=scored.cells,
         order=scored.orders,
         energy_drift=scored.drifts,
         scores=scored.scores,
-        notes=_notes(scored),
         phase=scored.asked("phase"),
         growth=scored.asked("growth"),
         period=scored.asked("period"),
@@ -70,23 +70,36 @@ def made(
     )
 
 
+def forms_of(wanted: Sequence[str], known: Sequence[str]) -> tuple[str, ...]:
+    """The forms of a family's equations that are wanted, each once, in their order.
+
+    Raises:
+        ValueError: one is unknown.
+    """
+    for name in wanted:
+        if name not in known:
+            raise ValueError(unknown("form", str(name), known))
+    return tuple(name for name in known if name in wanted)
+
+
 def distinct(values: Sequence[Any], name: str, what: str) -> None:
     """Refuse values that a double cannot tell apart.
 
     Raises:
         ValueError: there are such.
     """
-    if len(set(map(float, values))) < len(values):
+    if len(set(values)) < len(values):
         raise ValueError(f"{name} has one {what} twice, to a double's precision; each is accepted once.")
 
 
-def _notes(scored: Scored) -> tuple[str, ...]:
+def _notes(scored: Scored) -> dict[str, str]:
     """What was not marched, and why."""
-    return tuple(
-        f"left out where {label}: {', '.join(names)}, which split kicks from drifts or keep an energy"
-        for label, names in scored.left_out.items()
-        if names
-    )
+    where: dict[tuple[str, ...], list[str]] = {}
+    for label, names in scored.left_out.items():
+        if names:
+            where.setdefault(names, []).append(label)
+    notes = [f"{', '.join(names)} ({'; '.join(labels)})" for names, labels in where.items()]
+    return {"left out": "what splits kicks from drifts, or keeps an energy: " + "; ".join(notes)} if notes else {}
 
 
 def _traces(scored: Scored) -> tuple[tuple[Trace, ...], tuple[Trace, ...]]:

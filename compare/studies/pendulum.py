@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 from compare.scoring import DEFAULT_N, some
 from compare.studies.common import distinct, made
 from reference import Pendulum
-from reference.exact import as_number
+from reference.exact import as_number, exact
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -25,6 +25,7 @@ def study(
     length: Any = 1.0,
     t_end: Any = 10.0,
     omega0: Any = None,
+    n: Sequence[int] = DEFAULT_N,
     *,
     traces: bool = False,
     **options: Any,
@@ -37,6 +38,7 @@ def study(
         length: length in m.
         t_end: end of the march in s.
         omega0: angular velocity of the start in rad/s; released from rest if None.
+        n: numbers of steps, each a positive integer.
         traces: whether to keep trajectories for plots.
         options: of ``compare.scoring.score_all``.
 
@@ -44,13 +46,14 @@ def study(
         ValueError: an argument is outside its range, or a name unknown.
     """
     problems = [Pendulum(angle, g, length, omega0) for angle in some(theta0, "theta0")]
-    distinct([problem.theta0 for problem in problems], "theta0", "amplitude" if omega0 is None else "angle")
+    distinct([float(problem.theta0) for problem in problems], "theta0", "amplitude" if omega0 is None else "angle")
     going = {} if omega0 is None else {"omega0": as_number(problems[0].omega0)}
     parameters = {
         "theta0": [as_number(problem.theta0) for problem in problems],
         **going,
         "g": as_number(problems[0].g),
         "length": as_number(problems[0].length),
+        "t_end": as_number(exact(t_end, "t_end")),
     }
     definition = DEFINITION + ("omega0" if going else "0")
-    return made("pendulum", problems, definition, parameters, traces=traces, t_end=t_end, **options)
+    return made("pendulum", problems, definition, parameters, traces=traces, n=n, t_end=t_end, **options)
