@@ -101,5 +101,5 @@ def _error(problem: Problem) -> str:
     aspect = aspect_of(problem)
     names = [problem.state_names[i] for i in aspect.places]
     if len(names) > 1:
-        return f"error of {' or '.join(names)}, relative to its largest value,"
+        return f"error of {' or '.join(names)} relative to its largest value"
     return f"|{names[0]} - exact|" + ("" if aspect.angle else f"/max |{names[0]}|")

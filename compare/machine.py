@@ -56,7 +56,7 @@ COLUMNS: Columns = {
         "end_amplitude_error",
         "lost",
     ),
-    "growth": ("method", "n", "h", "case", "quantity", "exponent", "interval", "law", "windows", "floor"),
+    "growth": ("method", "n", "h", "case", "quantity", "exponent", "interval", "law", "windows", "starts", "floor"),
     "period": ("method", "n", "h", "case", "period", "relative_error"),
     "defects": ("method", "n", "h", "case", "symplecticity", "reversibility"),
 }

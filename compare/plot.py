@@ -114,7 +114,7 @@ def _label(case: Case) -> str:
 
 def _error_label(case: Case) -> str:
     """What an axis of errors shows."""
-    return _ANGLE_ERROR if case.unit == "rad" else f"largest {case.error.rstrip(',')}"
+    return _ANGLE_ERROR if case.unit == "rad" else f"largest {case.error}"
 
 
 FIGURES: dict[str, Callable[[Study, Case], Figure]] = {

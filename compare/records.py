@@ -184,6 +184,7 @@ class Growth(OfCase):
         interval: half-width of its 95 % interval.
         law: "bounded", "sqrt t", "t", "t^3/2" or "t^2"; "" where none is clear.
         windows: the windows of time that were used, each twice as long as the one before it.
+        starts: the marches that it is the mean of: several where the error of the place is rounding.
         floor: whether the error of the place is rounding.
     """
 
@@ -196,6 +197,7 @@ class Growth(OfCase):
     interval: float
     law: str
     windows: int
+    starts: int
     floor: bool
 
 

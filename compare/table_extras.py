@@ -18,7 +18,10 @@ if TYPE_CHECKING:
 __all__ = ["SECTIONS"]
 
 QUANTITIES = ("place", "phase", "energy")
-_GROWTH_NOTE = "exponent of t ± its 95 % interval; no law where none is clear; * means that the error is rounding"
+_GROWTH_NOTE = (
+    "exponent of t ± its 95 % interval; no law where none is clear\n"
+    "* means that the error is rounding: the mean of marches from several starts"
+)
 _GROWTH_NAN = "nan means too few periods, or an error that is no number: 32 periods and 32 samples make four windows"
 
 

@@ -19,7 +19,8 @@ __all__ = ["study"]
 
 DEFINITION = "N w'' = -(g y_w + N_w w'^2/2), N = x_w^2 + y_w^2, w(0) = w'(0) = 0, w the fraction of the way"
 TICK = Fraction(1, 1024)
-"""A march ends at the last multiple of so many seconds before the end of the curve."""
+SPARE = Fraction(4095, 4096)
+"""A march ends at the last multiple of so many seconds before this part of the descent: a neighbour may be quicker."""
 
 
 def study(
@@ -61,4 +62,4 @@ def study(
 
 
 def _last_tick(problem: Descent) -> Fraction:
-    return TICK * int(Fraction(float(problem.descent_time())) / TICK)
+    return TICK * int(SPARE * Fraction(float(problem.descent_time())) / TICK)
