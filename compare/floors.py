@@ -30,7 +30,7 @@ def floors_of(method: Method, courses: Sequence[Course], errors: Sequence[np.nda
     """Which courses are on the floor, given the errors [samples, state] of their marches, each problem's by N.
 
     A neighbour is marched only where the error is so small that it may be rounding, and no coarser course is on the
-    floor: most are not, and those that are have few steps.
+    floor: of each problem first one, then two, four, ... from the coarsest on.  Most are not, and those have few steps.
     """
     largest = [float(np.max(course.place(error))) for course, error in zip(courses, errors, strict=True)]
     doubtful = [size <= FLOOR_FACTOR * course.roundings for size, course in zip(largest, courses, strict=True)]
@@ -39,7 +39,9 @@ def floors_of(method: Method, courses: Sequence[Course], errors: Sequence[np.nda
         places.setdefault(course.problem, []).append(i)
     floors = [False] * len(courses)
     lanes = [course.lane for course in courses]
-    while waiting := _coarsest(places, doubtful):
+    ahead = 1
+    while waiting := [i for members in places.values() for i in _coarsest(members, doubtful, ahead)]:
+        ahead *= 2
         neighbours = [courses[i].neighbour for i in waiting]
         marches = march(method, [neighbour.lane for neighbour in neighbours], fmt, among=lanes)
         for i, neighbour, result in zip(waiting, neighbours, marches, strict=True):
@@ -53,7 +55,6 @@ def floors_of(method: Method, courses: Sequence[Course], errors: Sequence[np.nda
     return floors
 
 
-def _coarsest(places: dict[Problem, list[int]], doubtful: Sequence[bool]) -> list[int]:
-    """The first doubtful course of every problem that has one."""
-    firsts = (next((i for i in members if doubtful[i]), None) for members in places.values())
-    return [i for i in firsts if i is not None]
+def _coarsest(members: Sequence[int], doubtful: Sequence[bool], count: int) -> list[int]:
+    """The first doubtful courses of a problem."""
+    return [i for i in members if doubtful[i]][:count]

@@ -20,6 +20,7 @@ import numpy as np
 
 from compare.aspects import conserves
 from compare.lane import Lane, March, StartInvariant, grain_of, sample_steps
+from compare.shape import INLINE_SINE, Shape
 from compare.trace import compile_block, entry_rows, plain_block
 
 if TYPE_CHECKING:
@@ -27,21 +28,11 @@ if TYPE_CHECKING:
 
     from compare.contract import Method
     from compare.precision import Precision
-    from compare.trace import Block, Record
+    from compare.trace import Block
     from reference.problem import Problem
 
-__all__ = ["Lane", "March", "StartInvariant", "iterations_for", "march", "march_alone", "sample_steps"]
+__all__ = ["INLINE_SINE", "Lane", "March", "StartInvariant", "iterations_for", "march", "march_alone", "sample_steps"]
 
-SHORT_BLOCK = 8
-BLOCK_SIZE, WIDE_BLOCK_SIZE = 256, 32
-"""Evaluations in a compiled block at most, about; few in wide formats, where a call costs no more than an operation."""
-CALL_SECONDS, COMPILE_SECONDS = 6e-6, 6e-5
-"""Of one call of a block, and of compiling an evaluation for one lane of a batch: a longer block saves the one and
-costs the other."""
-JACOBIAN_SIZE, JACOBIAN_BATCH = 3, 16
-"""A Jacobian and what is solved with it is code for so many evaluations, and fills the registers of so many lanes."""
-INLINE_SINE = 10**9
-"""Evaluations from which the sine is compiled into the march: the seconds that it takes are then won back."""
 CLOCKED_RUNS, BRIEF = 3, 0.02
 """A march alone of less than BRIEF seconds is clocked this often."""
 CONVERGED = 1000
@@ -50,7 +41,12 @@ CONVERGED = 1000
 
 def iterations_for(method: Method, problem: Problem, h: float, bits: int) -> int:
     """Iterations that bring the equations of an implicit step to rounding; 0 for an explicit method."""
-    return method.iterations(max(h * problem.rate(), sys.float_info.min), bits)
+    return method.iterations(max(h * _rate(problem), sys.float_info.min), bits)
+
+
+@lru_cache(maxsize=256)
+def _rate(problem: Problem) -> float:
+    return problem.rate()
 
 
 def march(method: Method, lanes: Sequence[Lane], fmt: Precision, among: Sequence[Lane] | None = None) -> list[March]:
@@ -101,7 +97,7 @@ def _groups(
         mine = [lanes[i] for i in members]
         shared = [among[i] for i in known[key]] if among is not None and key in known else mine
         _, grain, iterations = key
-        yield members, _Group(method, mine, fmt, _Shape.of(method, shared, fmt, grain, iterations))
+        yield members, _Group(method, mine, fmt, Shape.of(method, shared, fmt, grain, iterations))
 
 
 def _sorted(method: Method, lanes: Sequence[Lane], fmt: Precision) -> dict[tuple[_Equation, int, int], list[int]]:
@@ -113,8 +109,9 @@ def _sorted(method: Method, lanes: Sequence[Lane], fmt: Precision) -> dict[tuple
         if method.family == "conservative" and not conserves(lane.problem):
             raise ValueError(f"{method.name} keeps an invariant, and {lane.problem.name} has none.")
         iterations = iterations_for(method, lane.problem, float(lane.h), fmt.bits)
-        grain = 1 if any(step % grain_of(lane.n) for step in lane.samples) else grain_of(lane.n)
-        groups[_Equation.of(lane.problem), grain, iterations].append(i)
+        grain = grain_of(lane.n)
+        ends_of_blocks = not any(step % grain for step in lane.samples)
+        groups[_Equation.of(lane.problem), grain if ends_of_blocks else 1, iterations].append(i)
     for members in groups.values():
         members.sort(key=lambda i: -lanes[i].n)
     return groups
@@ -133,34 +130,8 @@ class _Equation:
         return cls(type(problem), getattr(problem, "curve", None), problem)
 
 
-@dataclass(frozen=True)
-class _Shape:
-    """What a compiled block is for: how many steps and lanes it takes at once, what it gives, how it solves."""
-
-    steps: int
-    batch: int
-    record: Record
-    iterations: int
-    inline_sine: bool
-
-    @classmethod
-    def of(cls, method: Method, lanes: Sequence[Lane], fmt: Precision, grain: int, iterations: int) -> _Shape:
-        """The shape that suits lanes in order of falling N."""
-        evaluations, jacobians = method.evaluations(iterations)[0], method.jacobians(iterations)
-        inline = fmt.type is float and sum(lane.n for lane in lanes) * evaluations >= INLINE_SINE
-        size = evaluations * (4 if inline else 1) + jacobians * JACOBIAN_SIZE
-        lasting = sum(8 * lane.n >= lanes[0].n for lane in lanes)
-        batch = min(fmt.lanes, 1 << (max(lasting, 8) - 1).bit_length(), JACOBIAN_BATCH if jacobians else fmt.lanes)
-        balance = math.sqrt(2 * lanes[0].n * CALL_SECONDS / (COMPILE_SECONDS * batch * size))
-        room = min(BLOCK_SIZE / size, max(balance, SHORT_BLOCK)) if fmt.lanes > 1 else WIDE_BLOCK_SIZE / size
-        steps = SHORT_BLOCK if grain == 1 else grain
-        while steps > max(room, method.opening, 1):
-            steps //= 2
-        return cls(steps, batch, "every" if grain == 1 else "last", iterations, inline)
-
-
 @lru_cache(maxsize=64)
-def _compiled(method: Method, equation: _Equation, fmt: Precision, shape: _Shape) -> Block:
+def _compiled(method: Method, equation: _Equation, fmt: Precision, shape: Shape) -> Block:
     """``compile_block``, kept: a study comes back to the same block with other lanes."""
     return compile_block(
         method,
@@ -171,13 +142,14 @@ def _compiled(method: Method, equation: _Equation, fmt: Precision, shape: _Shape
         shape.batch,
         shape.iterations,
         inline_sine=shape.inline_sine,
+        brief=shape.brief,
     )
 
 
 class _Group:
     """Lanes in order of falling N, marched in lockstep by one compiled block until the longest has ended."""
 
-    def __init__(self, method: Method, lanes: Sequence[Lane], fmt: Precision, shape: _Shape) -> None:
+    def __init__(self, method: Method, lanes: Sequence[Lane], fmt: Precision, shape: Shape) -> None:
         self.method, self.lanes, self.fmt = method, lanes, fmt
         self.every, self.steps, self.batch = shape.record == "every", shape.steps, shape.batch
         self.iterations = shape.iterations

@@ -84,11 +84,12 @@ def compile_block(
     *,
     drift: bool = True,
     inline_sine: bool = False,
+    brief: bool = False,
 ) -> Block:
     """Trace ``steps`` steps of a method and compile them.
 
     ``iterations`` is for implicit methods; without ``drift`` the invariant is not followed and its row stays as it was.
-    ``inline_sine``, for doubles, marches faster and compiles slower.
+    ``inline_sine``, for doubles, marches faster and compiles slower; ``brief`` compiles faster and marches slower.
 
     Raises:
         TraceError: the compiled block does not agree with the plain steps at random points.
@@ -109,7 +110,8 @@ def compile_block(
         every += [*state, off, moved]
         largest = (_greater(off, largest[0]) if drift else off), _greater(moved, largest[1])
     outputs = every if record == "every" else [*state, *largest]
-    function = hy.cfunc(outputs, vars=[*y, *maxima], batch_size=batch, **fmt.compiler_options)
+    options = {**fmt.compiler_options, **({"opt_level": 0} if brief else {})}
+    function = hy.cfunc(outputs, vars=[*y, *maxima], batch_size=batch, **options)
     block = Block(function, steps, batch, record)
     _trust(block, method, problem, fmt, iterations)
     return block

@@ -138,7 +138,7 @@ def test_a_splitting_needs_a_separable_problem() -> None:
 def test_a_long_march_of_many_lanes_gives_what_its_lanes_give_alone(monkeypatch: pytest.MonkeyPatch) -> None:
     lanes = [lane(16384, Pendulum(theta0)) for theta0 in (1.0, 1.1, 2.0, 3.0)]
     plain = march(find("rk4"), lanes, FLOAT64)
-    monkeypatch.setattr("compare.march.INLINE_SINE", 1)
+    monkeypatch.setattr("compare.shape.INLINE_SINE", 1)
     inlined = march(find("rk4"), lanes, FLOAT64)
     assert any(not np.array_equal(one.states, other.states) for one, other in zip(plain, inlined, strict=True))
     for one, other in zip(plain, inlined, strict=True):
