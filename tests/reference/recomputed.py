@@ -122,7 +122,7 @@ def series(given: dict[str, Any], order: Any) -> Values:
 
     def taylor(function: Callable[[Any], Any], degree: int) -> Any:
         with mp.workprec(3 * mp.prec):
-            return mp.polyval(mp.taylor(function, 0, degree)[::-1], a)
+            return mp.fsum(c * a**i for i, c in enumerate(mp.taylor(function, 0, degree)))
 
     def wave(j: int) -> Callable[[Any], Any]:
         def coefficient(x: Any) -> Any:
@@ -186,10 +186,11 @@ def race(given: dict[str, Any], argument: Any) -> Values:
 
     def at_place(w: Any, i: int) -> Any:
         x, y = place(name, w)
-        slope = [mp.diff(lambda s, j=j: place(name, s)[j], w) for j in range(2)]
         speed = mp.sqrt(2 * g * (2 - y))
-        along = [part / mp.hypot(*slope) * speed for part in slope]
-        return (x, y, speed, *along)[i]
+        if i < 3 or speed == 0:
+            return (x, y, speed)[min(i, 2)]
+        slope = [mp.diff(lambda s, j=j: place(name, s)[j], w) for j in range(2)]
+        return slope[i - 3] / mp.hypot(*slope) * speed
 
     def place_at(t: Any) -> Any:
         whole = passage(name, mp.mpf(1), g)
