@@ -56,7 +56,7 @@ class Shape:
         balance = math.sqrt(2 * lanes[0].n * CALL_SECONDS / (COMPILE_SECONDS * batch * size))
         room = min(BLOCK_SIZE / size, max(balance, SHORT_BLOCK)) if fmt.lanes > 1 else WIDE_BLOCK_SIZE / size
         steps = SHORT_BLOCK if grain == 1 else grain
-        while steps > max(room, method.opening, 1):
+        while steps > room and steps // 2 >= max(method.opening, 1):
             steps //= 2
         brief = fmt.lanes > 1 and work < OPTIMIZED
         return cls(steps, batch, "every" if grain == 1 else "last", iterations, inline, brief)
