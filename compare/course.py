@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from compare.aspects import Aspect, aspect_of, conserves
+from compare.bound import FormatArithmetic
 from compare.cases import case_of
 from compare.lane import Lane, StartInvariant, sample_steps
 from reference.arithmetic import NUMPY
@@ -165,7 +166,7 @@ class Course:
         if not conserves(problem) or not start:
             return np.full(len(states), np.nan)
         parameters = {name: self.fmt.number(value) for name, value in problem.parameters.items()}
-        energies = problem.invariant(NUMPY, tuple(np.moveaxis(states, 1, 0)), parameters)
+        energies = problem.invariant(FormatArithmetic(self.fmt), tuple(np.moveaxis(states, 1, 0)), parameters)
         drift: np.ndarray = ((energies - start) / start).astype(np.float64)
         return drift
 

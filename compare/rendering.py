@@ -23,7 +23,18 @@ FORMATS = ("text", "markdown", "csv", "latex", "json")
 
 _SUFFIX = {"text": "txt", "markdown": "md", "latex": "tex", "json": "json"}
 _PAGE_WIDTH = {"markdown": 100, "latex": 72}
-_UNITS = {"theta0": "rad", "g": "m/s^2", "length": "m", "t_end": "s"}
+_UNITS = {
+    "theta0": "rad",
+    "omega0": "rad/s",
+    "angle": "rad",
+    "end": "m",
+    "radius": "m",
+    "g": "m/s^2",
+    "length": "m",
+    "t_end": "s",
+    "depth": "m",
+    "psi_end": "rad",
+}
 
 
 @dataclass(frozen=True)
@@ -93,7 +104,7 @@ def _header_text(study: Any, width: int) -> str:
 
 def _value(value: object) -> str:
     if isinstance(value, (list, tuple)):
-        return ", ".join(map(_value, value))
+        return ", ".join(f"({_value(item)})" if isinstance(item, (list, tuple)) else _value(item) for item in value)
     if isinstance(value, dict):
         return ", ".join(f"{key} {_value(item)}" for key, item in value.items())
     return value if isinstance(value, str) else repr(value)

@@ -7,11 +7,12 @@ figure 7 integrates dx/dy to almost the lowest point, where dx/dy is infinite.
 from __future__ import annotations
 
 import math
+from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
 from compare.paths import CycloidCurve
 from compare.scoring import some
-from compare.studies.common import SHORTER_N, distinct, forms_of, made
+from compare.studies.common import SHORTER_N, distinct, forms_of, made, positive_end
 from reference import Cycloid
 from reference.exact import as_number, exact
 
@@ -62,15 +63,26 @@ def study(
     distinct([(float(bead.end_x), float(bead.end_y)) for bead in beads], "end", "point")
     curves = [CycloidCurve(float(bead.radius())) for bead in beads] if "curve" in forms else []
     problems: list[Problem] = [*(beads if "motion" in forms else []), *curves]
-    ends = [t_end] * (len(problems) - len(curves))
-    ends += [float(2 * curve.radius) * NEAR_THE_BOTTOM if depth is None else depth for curve in curves]
+    ends = [*([t_end] * (len(problems) - len(curves))), *(_depth(curve, depth) for curve in curves)]
     parameters: dict[str, Any] = {
-        "end": [f"({as_number(bead.end_x)!r}, {as_number(bead.end_y)!r})" for bead in beads],
+        "end": [(as_number(bead.end_x), as_number(bead.end_y)) for bead in beads],
         "g": as_number(beads[0].g),
     }
     if "motion" in forms:
-        parameters["t_end"] = as_number(exact(t_end, "t_end"))
+        parameters["t_end"] = as_number(positive_end(t_end, "t_end"))
     if curves:
-        parameters["depth"] = [as_number(exact(value, "depth")) for value in ends[-len(curves) :]]
+        parameters["depth"] = [as_number(value) for value in ends[-len(curves) :]]
     definition = {name: FORMS[name] for name in forms}
     return made("brachistochrone", problems, definition, parameters, traces=traces, n=n, t_end=ends, **options)
+
+
+def _depth(curve: CycloidCurve, depth: Any) -> Fraction:
+    """Where the march of a curve ends."""
+    if depth is None:
+        return Fraction(float(2 * curve.radius) * NEAR_THE_BOTTOM)
+    if not 0 < (end := exact(depth, "depth")) <= 2 * curve.radius:
+        lowest = as_number(2 * curve.radius)
+        raise ValueError(
+            f"depth is {as_number(end)}; a positive depth up to that of the cycloid, {lowest}, is accepted."
+        )
+    return end

@@ -14,16 +14,18 @@ from compare.scoring import fits, score_all
 from reference import __version__
 from reference.certify import ROUTES
 from reference.compiler import hy
+from reference.exact import as_number, exact
 from reference.names import unknown
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
+    from fractions import Fraction
 
     from compare.precision import Precision
     from compare.scoring import Scored
     from reference.problem import Problem
 
-__all__ = ["SHORTER_N", "TRACE_N", "distinct", "forms_of", "made"]
+__all__ = ["SHORTER_N", "TRACE_N", "distinct", "forms_of", "made", "positive_end"]
 
 SHORTER_N = tuple(2**k for k in range(7, 18))
 """Numbers of steps for families that take longer than the pendulum, or are shown in several forms."""
@@ -80,6 +82,18 @@ def forms_of(wanted: Sequence[str], known: Sequence[str]) -> tuple[str, ...]:
         if name not in known:
             raise ValueError(unknown("form", str(name), known))
     return tuple(name for name in known if name in wanted)
+
+
+def positive_end(value: Any, name: str) -> Fraction:
+    """Where a march ends.
+
+    Raises:
+        ValueError: it is not positive or not finite.
+    """
+    end = exact(value, name)
+    if end <= 0:
+        raise ValueError(f"{name} is {as_number(end)}; a positive number is accepted.")
+    return end
 
 
 def distinct(values: Sequence[Any], name: str, what: str) -> None:

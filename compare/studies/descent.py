@@ -6,9 +6,9 @@ from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
 from compare.scoring import some
-from compare.studies.common import SHORTER_N, made
+from compare.studies.common import SHORTER_N, made, positive_end
 from reference import Descent
-from reference.exact import as_number, exact
+from reference.exact import as_number
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -52,7 +52,7 @@ def study(
     problems = [Descent(name, g, start, end) for name in dict.fromkeys(some(curve, "curve"))]
     for problem in problems:
         _ = problem.start  # a cusp has none
-    ends = [_last_tick(problem) if t_end is None else exact(t_end, "t_end") for problem in problems]
+    ends = [_last_tick(problem) if t_end is None else positive_end(t_end, "t_end") for problem in problems]
     parameters = {
         "curve": [problem.curve.name for problem in problems],
         "g": as_number(problems[0].g),

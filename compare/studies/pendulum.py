@@ -5,9 +5,9 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from compare.scoring import DEFAULT_N, some
-from compare.studies.common import distinct, made
+from compare.studies.common import distinct, made, positive_end
 from reference import Pendulum
-from reference.exact import as_number, exact
+from reference.exact import as_number
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -53,7 +53,7 @@ def study(
         **going,
         "g": as_number(problems[0].g),
         "length": as_number(problems[0].length),
-        "t_end": as_number(exact(t_end, "t_end")),
+        "t_end": as_number(positive_end(t_end, "t_end")),
     }
     definition = DEFINITION + ("omega0" if going else "0")
     return made("pendulum", problems, definition, parameters, traces=traces, n=n, t_end=t_end, **options)

@@ -6,17 +6,17 @@ University of Split 2022): it is singular at the lowest point, where psi goes th
 
 from __future__ import annotations
 
+from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
 from compare.paths import PolarByPsi, PolarByZ
 from compare.scoring import some
-from compare.studies.common import SHORTER_N, distinct, forms_of, made
+from compare.studies.common import SHORTER_N, distinct, forms_of, made, positive_end
 from reference import PolarBrachistochrone
 from reference.exact import as_number, exact
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
-    from fractions import Fraction
 
     from compare.records import Study
     from reference.problem import Problem
@@ -28,7 +28,7 @@ FORMS = {
     "z": "dphi/dz = -(z0^(3/2)/z) sqrt((1 - z)/((z - z0) Q)), Q = (1 - z0) z^2 + z0 (1 - z0) z + z0^2, down from z = 1",
     "psi": "dphi/dpsi = z0^(3/2) (1 - z)/(z sqrt(Q)), dtau/dpsi = z^2 sqrt((1 - z0)/Q), z = z0 sin^2 + cos^2 of psi/2",
 }
-ABOVE_THE_LOWEST = 1e-4
+ABOVE_THE_LOWEST = Fraction(1, 10_000)
 """Part of the way down at which the curve in z ends before its lowest point."""
 
 
@@ -59,20 +59,24 @@ def study(
         ValueError: an argument is outside its range, or a name unknown.
     """
     forms = forms_of(some(form, "form"), tuple(FORMS))
-    paths = [PolarBrachistochrone(z0=value) for value in some(z0, "z0")]
-    distinct([float(path.z0 or 0) for path in paths], "z0", "lowest point")
+    lowest = [exact(value, "z0") for value in some(z0, "z0")]
+    distinct([float(value) for value in lowest], "z0", "lowest point")
+    motions = [PolarBrachistochrone(z0=value) for value in lowest]
     problems: list[Problem] = []
-    ends: list[Any] = []
-    for name in forms:
-        for path in paths:
-            lowest = exact(path.z0, "z0")
-            problems.append({"time": path, "z": PolarByZ(lowest), "psi": PolarByPsi(lowest)}[name])
-            ends.append({"time": tau_end, "z": _depth(lowest, z_end), "psi": psi_end}[name])
-    parameters: dict[str, Any] = {"z0": [as_number(exact(path.z0, "z0")) for path in paths]}
-    lasts = {"time": ("tau_end", tau_end), "psi": ("psi_end", psi_end)}
-    parameters |= {lasts[name][0]: as_number(exact(lasts[name][1], lasts[name][0])) for name in forms if name in lasts}
+    ends: list[Fraction] = []
+    parameters: dict[str, Any] = {"z0": [as_number(value) for value in lowest]}
+    if "time" in forms:
+        problems += motions
+        ends += [positive_end(tau_end, "tau_end")] * len(lowest)
+        parameters["tau_end"] = as_number(ends[-1])
     if "z" in forms:
-        parameters["z_end"] = [float(1 - _depth(exact(path.z0, "z0"), z_end)) for path in paths]
+        problems += [PolarByZ(value) for value in lowest]
+        ends += [_depth(value, z_end) for value in lowest]
+        parameters["z_end"] = [as_number(1 - depth) for depth in ends[-len(lowest) :]]
+    if "psi" in forms:
+        problems += [PolarByPsi(value) for value in lowest]
+        ends += [positive_end(psi_end, "psi_end")] * len(lowest)
+        parameters["psi_end"] = as_number(ends[-1])
     definition = {name: FORMS[name] for name in forms}
     return made("polar", problems, definition, parameters, traces=traces, n=n, t_end=ends, **options)
 
@@ -80,5 +84,7 @@ def study(
 def _depth(lowest: Fraction, z_end: Any) -> Fraction:
     """How far below the release the curve in z ends."""
     if z_end is None:
-        return exact(float(1 - lowest) * (1 - ABOVE_THE_LOWEST), "z_end")
-    return 1 - exact(z_end, "z_end")
+        return 1 - exact(float(lowest + (1 - lowest) * ABOVE_THE_LOWEST), "z_end")
+    if not lowest < (end := exact(z_end, "z_end")) < 1:
+        raise ValueError(f"z_end is {as_number(end)}; a number with {as_number(lowest)} < z_end < 1 is accepted.")
+    return 1 - end

@@ -6,9 +6,9 @@ import math
 from typing import TYPE_CHECKING, Any
 
 from compare.scoring import some
-from compare.studies.common import SHORTER_N, distinct, forms_of, made
+from compare.studies.common import SHORTER_N, distinct, forms_of, made, positive_end
 from reference import Tautochrone
-from reference.exact import as_number, exact
+from reference.exact import as_number
 from reference.problems.cycloid import CycloidalPendulum
 
 if TYPE_CHECKING:
@@ -62,7 +62,7 @@ def study(
         "angle": [as_number(swing.angle) for swing in swings],
         "radius": as_number(swings[0].radius),
         "g": as_number(swings[0].g),
-        "t_end": as_number(exact(t_end, "t_end")),
+        "t_end": as_number(positive_end(t_end, "t_end")),
     }
     definition = {name: FORMS[name] for name in forms}
     return made("tautochrone", problems, definition, parameters, traces=traces, n=n, t_end=t_end, **options)
