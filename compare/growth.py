@@ -112,13 +112,16 @@ def _windows(times: np.ndarray, errors: np.ndarray, shortest: float) -> Iterator
         inside = (times > end / 2) & (times <= end)
         if end / 2 < shortest or np.count_nonzero(inside) < LEAST_SAMPLES:
             return
-        size = float(np.max(np.abs(errors[inside])))
-        yield math.log(end), (math.log(size) + _log_mean_square(errors[inside] / size) / 2 if size > 0 else -math.inf)
+        yield math.log(end), _log_size(errors[inside])
         end /= 2
 
 
-def _log_mean_square(errors: np.ndarray) -> float:
-    return math.log(float(np.mean(errors**2)))
+def _log_size(errors: np.ndarray) -> float:
+    """The logarithm of the root mean square; not a finite number where it is none."""
+    largest = float(np.max(np.abs(errors)))
+    if not 0 < largest < math.inf:
+        return math.nan
+    return math.log(largest) + math.log(float(np.mean((errors / largest) ** 2))) / 2
 
 
 def _law(exponent: float, interval: float) -> str:
