@@ -16,6 +16,7 @@ from __future__ import annotations
 
 from fractions import Fraction
 from functools import lru_cache
+from itertools import islice
 from typing import TYPE_CHECKING, Any
 
 from flint import arb, ctx
@@ -38,6 +39,7 @@ SPREAD = 40
 """Bits to which bisection finds the logarithm of w."""
 WIDENINGS = 12
 STEPS = 100
+FINISHING = 3
 
 
 def end_of(radius: Fraction, angle: Fraction, field: Field, extremal: Callable[..., Extremal]) -> End:
@@ -137,7 +139,7 @@ def _proven_zero(function: Callable[[arb], arb], *ends: arb) -> arb:
     if not bracket[0][1] * bracket[1][1] < 0:
         return arb.nan()
     least = abs(bracket[0][0]) * arb(2) ** (8 - ctx.prec)
-    w = next(w for w, step in _approach(at, bracket, arb.mid) if step <= least)
+    w = next(w for w, step, _ in _approach(at, bracket, arb.mid) if step <= least)
     slope = abs((bracket[1][1] - bracket[0][1]) / (bracket[1][0] - bracket[0][0]))
     radius = least + 2 * function(w).rad() / slope
     for _ in range(WIDENINGS):
@@ -148,17 +150,19 @@ def _proven_zero(function: Callable[[arb], arb], *ends: arb) -> arb:
 
 
 def _mpmath_zero(function: Callable[[Any], Any], *ends: Any) -> Any:
-    bound = mp.mpf(2) ** (4 - mp.prec)
+    """The same in mpmath's numbers: steps to half of the digits, and of as many more as give the rest the best."""
+    half = mp.mpf(2) ** (-mp.prec // 2)
     with mp.extraprec(20):
-        bracket = [(w, function(w)) for w in ends]
-        return next(w for w, step in _approach(function, bracket, mp.mpf) if step <= abs(w) * bound)
+        steps = _approach(function, [(w, function(w)) for w in ends], mp.mpf)
+        near = next(found for found in steps if found[1] <= abs(found[0]) * half)
+        return min([near, *islice(steps, FINISHING)], key=lambda found: abs(found[2]))[0]
 
 
-def _approach(function: Callable[[Any], Any], bracket: Any, point: Callable[[Any], Any]) -> Iterator[tuple[Any, Any]]:
-    """Ever better approximations to the zero in a bracket, each with the size of the step to it.
+def _approach(function: Callable[[Any], Any], bracket: Any, point: Callable[[Any], Any]) -> Iterator[tuple[Any, ...]]:
+    """Ever better approximations to the zero in a bracket, each with the size of the step to it and the value there.
 
     The false position of N. Anderson and Å. Björck, BIT 13, 253 (1973): the end that stays is weighed down, so that the
-    order is about 1.7.  ``point(t)`` is t without a radius.
+    order is about 1.7.  ``point(t)`` is t without a radius.  Where the value is zero the steps end, the last of size 0.
 
     Raises:
         ArithmeticError: STEPS steps do not suffice.
@@ -169,7 +173,9 @@ def _approach(function: Callable[[Any], Any], bracket: Any, point: Callable[[Any
         if not min(low, high) < t < max(low, high):
             t = point((low + high) / 2)
         value = function(t)
-        yield t, 0 * t if value == 0 else abs(t - high)
+        yield t, 0 * t if value == 0 else abs(t - high), value
+        if value == 0:
+            return
         if (value > 0) != (high_value > 0):
             low, low_value = high, high_value
         else:
