@@ -143,8 +143,9 @@ def _proven_zero(function: Callable[[arb], arb], *ends: arb) -> arb:
     slope = abs((bracket[1][1] - bracket[0][1]) / (bracket[1][0] - bracket[0][0]))
     radius = least + 2 * function(w).rad() / slope
     for _ in range(WIDENINGS):
-        if function((w - radius).mid()) > 0 > function((w + radius).mid()):
-            return w + radius * arb(0, 1)
+        low, high = (w - radius).mid(), (w + radius).mid()
+        if function(low) > 0 > function(high):
+            return low.union(high)
         radius *= 16
     return arb.nan()
 
