@@ -1,0 +1,99 @@
+"""The errata as text, Markdown, CSV, LaTeX or JSON; the page docs/errata.md is the Markdown form."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+from typing import TYPE_CHECKING, Any
+
+from compare import grid
+from compare.errata.erratum import REPORT, THESIS
+from compare.grid import Column, Section, folded
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Iterator
+
+    from compare.errata.erratum import Erratum
+
+__all__ = ["FIELDS", "records", "render"]
+
+FIELDS = ("source", "place", "printed", "right", "check", "touches", "confirmed")
+_SHORT = {REPORT: "report", THESIS: "thesis"}
+_COLUMNS = (Column("where", left=True), Column("", left=True), Column("what", left=True))
+_SHOWN = ("printed", "right", "check", "touches")
+_LATEX_WIDTH = 72
+
+_HEADER = """\
+# Errata of the two sources
+
+The project grew from two documents, and whoever works from them may meet these slips.
+Most are slips of the pen that no result rests on, as the last line of each entry says.
+An entry's check was run when this page was made: it is one test that the right form passes and the printed form fails.
+The same tests run with the test-suite, so that an entry which were none would not stay.
+The sources were read as text taken from their PDF files.
+The page is what this command prints with `--format markdown`:
+
+```
+python -m compare errata
+```
+"""
+
+
+def records(errata: Iterable[Erratum]) -> list[dict[str, Any]]:
+    """Each erratum by FIELDS, its check run now."""
+    return [
+        {
+            "source": _SHORT[one.source],
+            "place": one.place,
+            "printed": one.printed,
+            "right": one.right,
+            "check": one.how,
+            "touches": one.touches,
+            "confirmed": one.confirmed(),
+        }
+        for one in errata
+    ]
+
+
+def render(found: list[dict[str, Any]], form: str = "text", width: int = 100) -> str:
+    """The records in one of the table formats; JSON is an object whose ``errata`` have FIELDS."""
+    if form == "json":
+        lines = ",\n  ".join(json.dumps(record, ensure_ascii=False) for record in found)
+        return f'{{"errata": [\n  {lines}\n]}}\n'
+    if form == "csv":
+        buffer = io.StringIO()
+        writer = csv.DictWriter(buffer, FIELDS, lineterminator="\n")
+        writer.writeheader()
+        writer.writerows({**record, "confirmed": "yes" if record["confirmed"] else "no"} for record in found)
+        return buffer.getvalue()
+    if form == "markdown":
+        return "\n".join([_HEADER, *_markdown(found)])
+    lay_out = {"text": grid.text, "latex": grid.latex}[form]
+    return "\n".join(map(lay_out, _sections(found, _LATEX_WIDTH if form == "latex" else width)))
+
+
+def _of(found: list[dict[str, Any]]) -> Iterator[tuple[str, str, list[dict[str, Any]]]]:
+    """Each source: its short name, its citation, its records."""
+    for citation, name in _SHORT.items():
+        yield name, citation, [record for record in found if record["source"] == name]
+
+
+def _count(own: list[dict[str, Any]]) -> str:
+    return f"{sum(record['confirmed'] for record in own)} of {len(own)} entries are confirmed"
+
+
+def _markdown(found: list[dict[str, Any]]) -> Iterator[str]:
+    for name, citation, own in _of(found):
+        yield f"## The {name}\n\n{grid.markdown_text(citation)}: {_count(own)}.\n"
+        for record in own:
+            lines = "\n".join(f"- {field}: {grid.markdown_text(record[field])}" for field in _SHOWN)
+            yield f"### {record['place']}\n\n{lines}\n"
+
+
+def _sections(found: list[dict[str, Any]], width: int) -> Iterator[Section]:
+    for name, citation, own in _of(found):
+        rows = [
+            (record["place"] if field == "printed" else "", field, record[field]) for record in own for field in _SHOWN
+        ]
+        yield Section(f"errata-{name}", f"Errata: {citation}", (folded(_COLUMNS, rows, width),), _count(own) + ".")
