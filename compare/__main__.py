@@ -48,6 +48,8 @@ def _command(words: Sequence[str] | None = None) -> int:
         _print(_method(request.options["method"], request.form))
     elif request.command == "report":
         _print(_report(request))
+    elif request.command == "published":
+        _print(_published(request))
     elif request.command == "solvers":
         _print(_shown(request, _solver_study, "compare.solvers"))
     else:
@@ -138,6 +140,13 @@ def _report(request: Request) -> str:
     if not request.quiet:
         print(f"wrote report.md and what goes with it into {out}", file=sys.stderr)
     return rendering.render(found, table.TABLES, request.form, _width())
+
+
+def _published(request: Request) -> str:
+    from compare.published import show
+    from compare.published.entry import reproduce
+
+    return show.render(reproduce(request.options["names"]), request.form, _width())
 
 
 def _listing(form: str) -> str:

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from compare.judge import options as judge
+from compare.published import options as published
 from compare.report import options as report
 from compare.solvers import options as solvers
 from compare.studies import options as studies
@@ -28,12 +29,13 @@ COMMANDS = {
     "list": "list the methods: family, order, stages, source",
     "show": "show a method: its tableau or its flows, its proven order, its properties",
     "report": "one page of work and precision: methods and solvers over problems and amplitudes",
+    "published": "the tables that two sources print: published, reproduced, exact",
     "solvers": "score other people's solvers: error against tolerance, evaluations and seconds, events",
     "score": "judge a file of numbers from any code against the proven truth",
     "check": "measure whether your integrator is what it claims to be",
 }
 
-_ROOMS: dict[str, Any] = {**studies.ROOMS, "solvers": solvers, "report": report, "check": judge}
+_ROOMS: dict[str, Any] = {**studies.ROOMS, "solvers": solvers, "report": report, "check": judge, "published": published}
 """Commands whose options stand in a room of their own."""
 _SHOWN = tuple(form for form in FORMATS if form != "csv")
 _FORMATS_HELP, _SHOWN_HELP = f"{', '.join(FORMATS)} (default text)", f"{', '.join(_SHOWN)} (default text)"

@@ -1,0 +1,1 @@
+"""The tables that two documents print, reproduced: as published, as reproduced, as exact."""

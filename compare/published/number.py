@@ -1,0 +1,61 @@
+"""Numbers that can be asked for their decimal of so many places, correctly rounded."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import TYPE_CHECKING, Protocol
+
+from reference.limbs import fixed, to_fixed, ziv
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from flint import arb
+
+__all__ = ["Enclosed", "Exact", "Number", "double"]
+
+SPARE_BITS = 64
+
+
+class Number(Protocol):
+    """A number by its decimals; ``reference.Certified`` is one."""
+
+    def fixed(self, places: int) -> str:
+        """The decimal of so many places, correctly rounded."""
+
+
+@dataclass(frozen=True)
+class Exact:
+    """A rational number."""
+
+    value: Fraction
+
+    def fixed(self, places: int) -> str:
+        """The decimal of so many places, correctly rounded."""
+        return fixed(self.value, places)
+
+
+def double(value: float) -> Exact:
+    """A double at its exact value."""
+    return Exact(Fraction(value))
+
+
+@dataclass(frozen=True)
+class Enclosed:
+    """A real number known by balls around it, at the precision in force."""
+
+    ball: Callable[[], arb]
+    what: str
+
+    def fixed(self, places: int) -> str:
+        """The decimal of so many places, proven correctly rounded.
+
+        Raises:
+            WorkBoundError: it cannot be decided within the bound on the working precision.
+        """
+        of_ball, _ = to_fixed(places)
+        bits = math.ceil(places * math.log2(10)) + SPARE_BITS
+        ((found,),) = ziv(lambda _: [[self.ball()]], of_ball, 1, bits, self.what)
+        return found

@@ -1,0 +1,107 @@
+"""The data file: what was printed, as printed, with its page, and by what each column is computed again."""
+
+from __future__ import annotations
+
+import tomllib
+from dataclasses import dataclass, field
+from fractions import Fraction
+from functools import lru_cache
+from pathlib import Path
+from typing import Any
+
+__all__ = ["Column", "Table", "sources", "tables"]
+
+DATA = Path(__file__).with_name("published.toml")
+
+
+@dataclass(frozen=True)
+class Column:
+    """A column of a table.
+
+    Attributes:
+        name: what it is called here.
+        by: what computes it; a key of the table's module.
+        method, step: of a march, its method and step size.
+        claims_exact: whether it is given as a solution of the equation, to every digit printed.
+        printed: the entries as printed, none where the source does not print them.
+        places: decimal places of an entry that is not printed.
+        note, notes: what is to be said of all its entries, and of those of single rows.
+        skip: rows in which it has no entry.
+    """
+
+    name: str
+    by: str
+    method: str = ""
+    step: Fraction = Fraction(0)
+    claims_exact: bool = False
+    printed: tuple[str, ...] = ()
+    places: int = 0
+    note: str = ""
+    notes: dict[str, str] = field(default_factory=dict, hash=False)
+    skip: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class Table:
+    """A table or figure of a source.
+
+    Attributes:
+        name: as the command line spells it.
+        source: whose it is, a key of ``sources()``.
+        item: what it is called in records, such as "report table 9".
+        page: where it is printed.
+        title: what its numbers are, with their unit.
+        row_name, row_units: what tells its rows apart.
+        rows: that quantity as printed.
+        parameters: of the problem, as printed.
+        note: what is to be said of it.
+        columns: its columns.
+
+    Raises:
+        ValueError: a column has more or fewer entries than there are rows.
+    """
+
+    name: str
+    source: str
+    item: str
+    page: int
+    title: str
+    row_name: str
+    row_units: str
+    rows: tuple[str, ...]
+    parameters: dict[str, str] = field(hash=False)
+    note: str
+    columns: tuple[Column, ...]
+
+    def __post_init__(self) -> None:
+        for column in self.columns:
+            if column.printed and len(column.printed) != len(self.rows):
+                raise ValueError(
+                    f"{self.item}, {column.name}: {len(column.printed)} entries; {len(self.rows)} are accepted."
+                )
+
+
+@lru_cache(maxsize=1)
+def _read() -> dict[str, Any]:
+    return tomllib.loads(DATA.read_text(encoding="utf-8"))
+
+
+def sources() -> dict[str, str]:
+    """The documents, by what they are called here."""
+    return dict(_read()["sources"])
+
+
+@lru_cache(maxsize=1)
+def tables() -> tuple[Table, ...]:
+    """The tables in the order of the file."""
+    return tuple(_table(dict(values)) for values in _read()["tables"])
+
+
+def _table(values: dict[str, Any]) -> Table:
+    columns = tuple(_column(dict(column)) for column in values.pop("columns"))
+    return Table(**{**values, "rows": tuple(values["rows"]), "columns": columns})
+
+
+def _column(values: dict[str, Any]) -> Column:
+    values |= {name: tuple(values[name]) for name in ("printed", "skip") if name in values}
+    return Column(**{**values, "step": Fraction(values.get("step", 0))})
