@@ -24,13 +24,15 @@ if TYPE_CHECKING:
 __all__ = ["FLOOR_FACTOR", "floors_of"]
 
 FLOOR_FACTOR = 10
+GROWTH = 4
+"""Rounding is taken to grow with no higher power of N: at a fixed end it goes with the root of N, at worst with N."""
 
 
 def floors_of(method: Method, courses: Sequence[Course], errors: Sequence[np.ndarray], fmt: Precision) -> list[bool]:
     """Which courses are on the floor, given the errors [samples, state] of their marches, each problem's by N.
 
-    A neighbour is marched only where the error is so small that it may be rounding, and no coarser course is on the
-    floor: of each problem first one, then two, four, ... from the coarsest on.  Most are not, and those have few steps.
+    A neighbour is marched only where the error is so small that it may be rounding, no coarser course is on the floor,
+    and no coarser neighbour told that rounding is still far away: most are not, and those have few steps.
     """
     largest = [float(np.max(course.place(error))) for course, error in zip(courses, errors, strict=True)]
     doubtful = [size <= FLOOR_FACTOR * course.roundings for size, course in zip(largest, courses, strict=True)]
@@ -41,17 +43,20 @@ def floors_of(method: Method, courses: Sequence[Course], errors: Sequence[np.nda
     lanes = [course.lane for course in courses]
     ahead = 1
     while waiting := [i for members in places.values() for i in _coarsest(members, doubtful, ahead)]:
-        ahead *= 2
+        ahead = 2
         neighbours = [courses[i].neighbour for i in waiting]
         marches = march(method, [neighbour.lane for neighbour in neighbours], fmt, among=lanes)
         for i, neighbour, result in zip(waiting, neighbours, marches, strict=True):
             noise = float(np.max(courses[i].place(errors[i] - neighbour.errors(result.states))))
             noise += courses[i].carried(errors[i])
-            doubtful[i] = False
+            members = places[courses[i].problem]
+            finer = members[members.index(i) :]
             if largest[i] <= FLOOR_FACTOR * noise and noise <= courses[i].roundings:
-                members = places[courses[i].problem]
-                for finer in members[members.index(i) :]:
-                    floors[finer], doubtful[finer] = True, False
+                for j in finer:
+                    floors[j], doubtful[j] = True, False
+            least = max(noise, fmt.epsilon * float(np.max(courses[i].place(courses[i].truth[:, :, 0]))))
+            for j in finer:
+                doubtful[j] &= j != i and largest[j] <= FLOOR_FACTOR * least * (courses[j].n / courses[i].n) ** GROWTH
     return floors
 
 

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 __all__ = ["INLINE_SINE", "Shape"]
 
-SHORT_BLOCK = 8
+SHORT_BLOCK, SHORTEST_BLOCK = 8, 4
 BLOCK_SIZE, WIDE_BLOCK_SIZE = 256, 32
 """Evaluations in a compiled block at most, about; few in wide formats, where a call costs no more than an operation."""
 CALL_SECONDS, COMPILE_SECONDS = 6e-6, 6e-5
@@ -51,10 +51,10 @@ class Shape:
         work = sum(lane.n for lane in lanes) * evaluations
         inline = fmt.type is float and work >= INLINE_SINE
         size = evaluations * (4 if inline else 1) + jacobians * JACOBIAN_SIZE
-        lasting = sum(8 * lane.n >= lanes[0].n for lane in lanes)
+        lasting = sum(2 * lane.n > lanes[0].n for lane in lanes)  # through the half of the march that all others miss
         batch = min(fmt.lanes, 1 << (max(lasting, 8) - 1).bit_length(), JACOBIAN_BATCH if jacobians else fmt.lanes)
         balance = math.sqrt(2 * lanes[0].n * CALL_SECONDS / (COMPILE_SECONDS * batch * size))
-        room = min(BLOCK_SIZE / size, max(balance, SHORT_BLOCK)) if fmt.lanes > 1 else WIDE_BLOCK_SIZE / size
+        room = min(BLOCK_SIZE / size, max(balance, SHORTEST_BLOCK)) if fmt.lanes > 1 else WIDE_BLOCK_SIZE / size
         steps = SHORT_BLOCK if grain == 1 else grain
         while steps > room and steps // 2 >= max(method.opening, 1):
             steps //= 2
