@@ -39,6 +39,8 @@ def _command(words: Sequence[str] | None = None) -> int:
     request = parse(sys.argv[1:] if words is None else words)
     if request.command == "check":
         return _check(request)
+    if request.command == "errata":
+        return _errata(request)
     if request.command == "score":
         _score(request)
         return 0
@@ -95,6 +97,15 @@ def _check(request: Request) -> int:
         found = check(**{**request.options, "step": loaded(request.options["step"])})
     _print({"text": show.text, "json": show.json_text}[request.form](found))
     return 0 if found.claims_hold else 1
+
+
+def _errata(request: Request) -> int:
+    """Print the errata, their checks run now; one that is not confirmed is a failure."""
+    from compare.errata import entries, show
+
+    found = show.records(entries.ERRATA)
+    _print(show.render(found, request.form, _width()))
+    return 0 if all(record["confirmed"] for record in found) else 1
 
 
 def _score(request: Request) -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
+from compare.errata import options as errata
 from compare.judge import options as judge
 from compare.published import options as published
 from compare.report import options as report
@@ -30,12 +31,20 @@ COMMANDS = {
     "show": "show a method: its tableau or its flows, its proven order, its properties",
     "report": "one page of work and precision: methods and solvers over problems and amplitudes",
     "published": "the tables that two sources print: published, reproduced, exact",
+    "errata": "what two sources print wrong, what is right, and whether its check confirms it",
     "solvers": "score other people's solvers: error against tolerance, evaluations and seconds, events",
     "score": "judge a file of numbers from any code against the proven truth",
     "check": "measure whether your integrator is what it claims to be",
 }
 
-_ROOMS: dict[str, Any] = {**studies.ROOMS, "solvers": solvers, "report": report, "check": judge, "published": published}
+_ROOMS: dict[str, Any] = {
+    **studies.ROOMS,
+    "solvers": solvers,
+    "report": report,
+    "check": judge,
+    "errata": errata,
+    "published": published,
+}
 """Commands whose options stand in a room of their own."""
 _SHOWN = tuple(form for form in FORMATS if form != "csv")
 _FORMATS_HELP, _SHOWN_HELP = f"{', '.join(FORMATS)} (default text)", f"{', '.join(_SHOWN)} (default text)"

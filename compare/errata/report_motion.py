@@ -79,8 +79,8 @@ def _is_exponential(step: Callable[[Fraction], Fraction]) -> bool:
 def _is_invariant(form: Callable[[Any, Any, Any], Any]) -> bool:
     """Whether it keeps its value along the proven motion, and changes off it, so that it can be projected on."""
     g = exactly(str(GRAVITY))
-    (y, v), later = along(OF_THE_REPORT, "0.3"), along(OF_THE_REPORT, "0.9")
-    return near(form(y, v, g), form(*later, g)) and not near(form(y, v, g), form(y, 2 * v, g))
+    (y, v), (later, then) = along(OF_THE_REPORT, "0.3"), along(OF_THE_REPORT, "0.9")
+    return near(form(y, v, g), form(later, then, g)) and not near(form(y, v, g), form(y, 2 * v, g))
 
 
 def _is_acceleration(units: tuple[int, int]) -> bool:

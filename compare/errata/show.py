@@ -20,7 +20,7 @@ __all__ = ["FIELDS", "records", "render"]
 
 FIELDS = ("source", "place", "printed", "right", "check", "touches", "confirmed")
 _SHORT = {REPORT: "report", THESIS: "thesis"}
-_COLUMNS = (Column("where", left=True), Column("", left=True), Column("what", left=True))
+_COLUMNS = (Column("", left=True), Column("erratum", left=True))
 _SHOWN = ("printed", "right", "check", "touches")
 _LATEX_WIDTH = 72
 
@@ -93,7 +93,9 @@ def _markdown(found: list[dict[str, Any]]) -> Iterator[str]:
 
 def _sections(found: list[dict[str, Any]], width: int) -> Iterator[Section]:
     for name, citation, own in _of(found):
-        rows = [
-            (record["place"] if field == "printed" else "", field, record[field]) for record in own for field in _SHOWN
-        ]
+        rows = [row for record in own for row in (("where", record["place"]), *_rows(record), ("", ""))][:-1]
         yield Section(f"errata-{name}", f"Errata: {citation}", (folded(_COLUMNS, rows, width),), _count(own) + ".")
+
+
+def _rows(record: dict[str, Any]) -> Iterator[tuple[str, str]]:
+    return ((field, record[field]) for field in _SHOWN)

@@ -106,7 +106,8 @@ def _expanded(sign: int) -> Callable[..., Any]:
 @precisely
 def _are_rates(form: Callable[[Any, Any, Any], tuple[Any, Any]]) -> bool:
     """Whether form(theta, omega, g/R) is (omega', theta') at a proven state of the bead."""
-    found = form(*along(BEAD, WHEN), exactly(str(GRAVITY / RADIUS)))
+    theta, omega = along(BEAD, WHEN)
+    found = form(theta, omega, exactly(str(GRAVITY / RADIUS)))
     return all(near(a, b) for a, b in zip(found, reversed(rates(BEAD, WHEN)), strict=True))
 
 
@@ -162,7 +163,7 @@ CURVES = (
         THESIS, "before (1.43)",
         "x(θ) = θ + sin θ, y(θ) = 1 − cos θ", "x(θ) = R (θ + sin θ), y(θ) = R (1 − cos θ)",
         "The kinetic energy of a point there is held against (1.43), which is right, with R = 2 m.",
-        "None: the figures have R = 1 m.",
+        "None: the listing has R = 1 m.",
         (lambda theta: (theta + mp.sin(theta), 1 - mp.cos(theta)),
          lambda theta: (RADIUS * (theta + mp.sin(theta)), RADIUS * (1 - mp.cos(theta)))), _has_the_kinetic_energy,
     ),
@@ -205,7 +206,7 @@ CURVES = (
         THESIS, "list of figures, figure 11",
         "three particles arrive at x = 3.14 at once", "at x = 0, as under the figure itself",
         "The proven angle of a bead a quarter of a period after its release gives x.",
-        "None: with x = θ + sin θ the beads start near 3.14.",
+        "None: x = π is the cusp, above the start of every bead.",
         ("3.14", "0.00"), _is_where_they_meet,
     ),
 )  # fmt: skip

@@ -128,7 +128,7 @@ FIELD = (
         THESIS, "section 4.5, on figure 14, Z = 0.1",
         "its ends are about on one line through the origin", "they are 55° apart; 60° is the limit as Z falls to 0",
         "The proven angle from the release to the lowest point, rounded to a degree.",
-        "The wording alone: the upper part of the curve is nearly straight, as the figure shows.",
+        "The wording alone.",
         ("0", "55"), _is_the_angle_between_the_ends,
     ),
     Erratum(

@@ -1,0 +1,149 @@
+"""The errata: each is confirmed, none would be if it were none, and the page says what the checks found."""
+
+from __future__ import annotations
+
+import csv
+import dataclasses
+import io
+import json
+from fractions import Fraction
+from pathlib import Path
+
+import pytest
+from mpmath import mp
+
+from compare.__main__ import main
+from compare.errata import show
+from compare.errata.cosines import coefficient, plus, sine, times
+from compare.errata.entries import ERRATA
+from compare.errata.erratum import REPORT, THESIS
+from compare.errata.evidence import near, rounds_to
+from compare.errata.report_series import BETA, BETA_PRINTED, PHI_B, PHI_B_PRINTED, PHI_C, PHI_C_PRINTED
+from reference.problems.pendulum import Pendulum
+
+ROOT = Path(__file__).parents[2]
+each = pytest.mark.parametrize("erratum", ERRATA, ids=lambda one: f"{one.source[:4]}-{one.place}")
+
+
+@each
+def test_the_right_form_passes_and_the_printed_form_fails(erratum):
+    printed, right = erratum.forms
+    assert erratum.holds(right)
+    assert not erratum.holds(printed)
+    assert erratum.confirmed()
+
+
+@each
+def test_an_erratum_that_is_none_is_not_confirmed(erratum):
+    printed, right = erratum.forms
+    for forms in ((right, right), (printed, printed), (right, printed)):
+        assert not dataclasses.replace(erratum, forms=forms).confirmed()
+
+
+def test_no_place_stands_twice():
+    places = [(one.source, one.place) for one in ERRATA]
+    assert len(set(places)) == len(places)
+    assert {source for source, _ in places} == {REPORT, THESIS}
+
+
+def test_checks_leave_the_precision_as_it_was():
+    before = mp.prec
+    assert all(one.confirmed() for one in ERRATA)
+    assert mp.prec == before
+
+
+def test_series_of_cosines_obey_what_is_known_of_cosines():
+    a_cos = {(1, 1): Fraction(1)}
+    assert times(a_cos, a_cos) == {(2, 0): Fraction(1, 2), (2, 2): Fraction(1, 2)}
+    assert coefficient(times(times(a_cos, a_cos), a_cos), 3) == {1: Fraction(3, 4), 3: Fraction(1, 4)}
+    assert plus(a_cos, {(1, 1): Fraction(-1)}) == {}
+    with mp.workdps(30):
+        found = sum(mp.mpf(c.numerator) / c.denominator / 100**n for (n, _), c in sine(a_cos).items())
+        assert abs(found - mp.sin(mp.mpf("0.01"))) < mp.mpf("1e-16")
+
+
+def test_a_number_rounds_to_a_decimal_within_half_a_unit():
+    assert rounds_to(mp.mpf("2.006067"), "2.00607")
+    assert not rounds_to(mp.mpf("2.006067"), "2.00606")
+    assert near(mp.mpf(1), mp.mpf(1))
+    assert not near(mp.mpf(1), mp.mpf("1.001"))
+
+
+def approximation(t, phi_b, phi_c, beta):
+    """(4.14) at the amplitude 1, with g/l = 9.81 and omega as the report rewrites it."""
+    omega = mp.sqrt(mp.mpf("9.81") / (1 + mp.mpf(1) / 8 - mp.mpf(beta.numerator) / beta.denominator))
+    terms = plus({(1, 1): Fraction(1)}, phi_b, phi_c)
+    return sum(mp.mpf(c.numerator) / c.denominator * mp.cos(k * omega * t) for (_, k), c in terms.items())
+
+
+def test_the_slips_of_section_4_cost_table_12_what_the_page_says():
+    times_shown = [Fraction(1, 100) + Fraction(n, 2) for n in range(20)]
+    exact = Pendulum("1", g="9.81", length=1).state(times_shown)[:, 0]
+    largest = [
+        max(abs(approximation(float(t), *series) - truth) for t, truth in zip(times_shown, exact, strict=True))
+        for series in ((PHI_B_PRINTED, PHI_C_PRINTED, BETA_PRINTED), (PHI_B, PHI_C, BETA))
+    ]
+    assert [round(float(error), 4) for error in largest] == [0.0351, 0.0116]
+    page = show.render(show.records(ERRATA), "markdown")
+    assert "0.0351" in page
+    assert "0.0116" in page
+    assert round(float(approximation(8.01, PHI_B_PRINTED, PHI_C_PRINTED, BETA_PRINTED)), 7) == -0.0104871
+
+
+def test_one_sign_gives_all_that_section_4_prints_after_it():
+    """(4.12), beta and (4.13), and from them what (4.16) would be, follow from (4.8) as it is printed."""
+    a_cos = {(1, 1): Fraction(1)}
+    phi = plus(a_cos, PHI_B_PRINTED)
+    stiffness = {(0, 0): Fraction(1), (2, 0): Fraction(1, 8)}
+    forcing = {k: -c for k, c in coefficient(times(stiffness, sine(phi)), 5).items()}
+    assert forcing == {1: Fraction(5, 512), 3: Fraction(1, 384), 5: Fraction(1, 7680)}
+    forced = {(5, k): c / (1 - k * k) for k, c in forcing.items() if k > 1}
+    assert plus(forced, {(5, 1): -sum(forced.values())}) == PHI_C_PRINTED
+    assert Fraction(5, 512) / 2 - Fraction(1, 8) ** 2 / 8 == Fraction(3, 1024)  # of sqrt(1 + a^2/8 + 5 a^4/512)
+
+
+def test_the_misprinted_polar_form_would_sweep_what_the_page_says():
+    z0 = mp.mpf("0.2")
+
+    def slope(psi):
+        z = (1 + z0) / 2 + (1 - z0) / 2 * mp.cos(psi)
+        return z0 ** mp.mpf("1.5") * (1 - z) / (z * mp.sqrt((1 - z0) * z * z + z0 * (1 - z0) + z0 * z0))
+
+    whole = mp.degrees(2 * mp.quad(slope, mp.linspace(0, mp.pi, 5)))
+    assert rounds_to(whole, "74.87")
+    assert "74.87°" in show.render(show.records(ERRATA), "markdown")
+
+
+def test_the_page_is_what_the_command_prints(capsys):
+    assert main(["errata", "--format", "markdown"]) == 0
+    assert (ROOT / "docs" / "errata.md").read_text(encoding="utf-8") == capsys.readouterr().out
+
+
+@pytest.mark.parametrize("form", ["text", "markdown", "latex"])
+def test_every_erratum_stands_in_what_people_read(form):
+    shown = show.render(show.records(ERRATA), form)
+    for one in ERRATA:
+        assert one.place.split(",")[0] in shown
+    assert f"{sum(one.source == THESIS for one in ERRATA)} of" in shown
+
+
+def test_text_fits_a_narrow_terminal():
+    lines = show.render(show.records(ERRATA), "text", 80).splitlines()
+    assert max(len(line) for line in lines if not line.startswith("Errata:")) <= 80
+
+
+def test_programs_read_the_same_records():
+    found = show.records(ERRATA)
+    read = json.loads(show.render(found, "json"))["errata"]
+    assert read == found
+    rows = list(csv.DictReader(io.StringIO(show.render(found, "csv"))))
+    assert [row["place"] for row in rows] == [one.place for one in ERRATA]
+    assert {row["confirmed"] for row in rows} == {"yes"}
+
+
+def test_what_is_not_confirmed_is_said_and_is_a_failure(monkeypatch, capsys):
+    none = dataclasses.replace(ERRATA[0], forms=(ERRATA[0].forms[1],) * 2)
+    monkeypatch.setattr("compare.errata.entries.ERRATA", (none, *ERRATA[1:]))
+    assert main(["errata"]) == 1
+    own = sum(one.source == REPORT for one in ERRATA)
+    assert f"{own - 1} of {own} entries are confirmed" in capsys.readouterr().out
