@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -64,6 +64,10 @@ class Course:
     def times(self) -> list[Fraction]:
         """n h, exactly."""
         return [step * self.h for step in self.steps]
+
+    def __getstate__(self) -> dict[str, Any]:
+        """Without the times, which take longer to send to another process than to compute again there."""
+        return {name: value for name, value in self.__dict__.items() if name != "times"}
 
     @cached_property
     def truth(self) -> np.ndarray:
