@@ -43,19 +43,24 @@ STEPS = {"time": "s", "height": "m", "psi": "rad"}
 """Units of the step by what a state is a function of."""
 
 
-@lru_cache(maxsize=256)
 def case_of(problem: Problem) -> Case:
     """The problem in a few words."""
+    return _case(problem, repr(problem))
+
+
+@lru_cache(maxsize=256)
+def _case(problem: Problem, text: str) -> Case:
+    """The same, kept; equal problems may be spelt otherwise."""
     aspect, over = aspect_of(problem), problem.row("state").over
     form = FORMS.get(problem.name, "")
     inputs = {name: _value(getattr(problem, name)) for name in INPUTS.get(problem.name, ())}
     shown = {name: value for name, value in inputs.items() if not (name in {"omega0", "released"} and not value)}
     words = [f"{name} = {value!r} {UNITS.get(name, '')}".rstrip() for name, value in shown.items()]
-    words = [word.replace("'", "") for word in words] or [repr(problem)]
+    words = [word.replace("'", "") for word in words] or [text]
     step = STEPS.get(over, "")
     period = math.isfinite(period_of(problem))
     return Case(
-        problem=repr(problem),
+        problem=text,
         inputs=(*((("form", form),) if form else ()), *shown.items()),
         label=", ".join([*([_in_words(form)] if form else []), *words]),
         error=_error(problem),

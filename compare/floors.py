@@ -7,6 +7,7 @@ difference that N roundings cannot account for is of a step too large, not of ro
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -47,17 +48,33 @@ def floors_of(method: Method, courses: Sequence[Course], errors: Sequence[np.nda
         neighbours = [courses[i].neighbour for i in waiting]
         marches = march(method, [neighbour.lane for neighbour in neighbours], fmt, among=lanes)
         for i, neighbour, result in zip(waiting, neighbours, marches, strict=True):
-            noise = float(np.max(courses[i].place(errors[i] - neighbour.errors(result.states))))
-            noise += courses[i].carried(errors[i])
+            noise = _noise(courses[i], errors[i], neighbour.errors(result.states))
             members = places[courses[i].problem]
             finer = members[members.index(i) :]
             if largest[i] <= FLOOR_FACTOR * noise and noise <= courses[i].roundings:
                 for j in finer:
                     floors[j], doubtful[j] = True, False
-            least = max(noise, fmt.epsilon * float(np.max(courses[i].place(courses[i].truth[:, :, 0]))))
+            least = max(noise, _rounding(courses[i]))
             for j in finer:
                 doubtful[j] &= j != i and largest[j] <= FLOOR_FACTOR * least * (courses[j].n / courses[i].n) ** GROWTH
     return floors
+
+
+def _noise(course: Course, errors: np.ndarray, others: np.ndarray) -> float:
+    """How far rounding can have led: what tells the errors from a neighbour's, and what the coordinate's error makes.
+
+    Where they are alike to less than a rounding the neighbour has had the same roundings, as on a straight line, and
+    tells nothing: then N random ones are counted.
+    """
+    apart = float(np.max(course.place(errors - others)))
+    if apart < _rounding(course) / 4:
+        apart = _rounding(course) * math.sqrt(course.n)
+    return apart + course.carried(errors)
+
+
+def _rounding(course: Course) -> float:
+    """One rounding of the place at its largest."""
+    return course.fmt.epsilon * float(np.max(course.place(course.truth[:, :, 0])))
 
 
 def _coarsest(members: Sequence[int], doubtful: Sequence[bool], count: int) -> list[int]:

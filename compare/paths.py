@@ -33,6 +33,9 @@ PHI = Quantity("phi", "rad", "angle swept since the release", "dphi/dpsi = z0^(3
 class CycloidCurve(CycloidArc):
     """dx/dy = sqrt(y/(2 R - y)) from the cusp down, singular at the lowest point y = 2 R."""
 
+    def __repr__(self) -> str:
+        return f"CycloidCurve(radius={as_number(self.radius)!r})"
+
     def rate(self) -> float:
         """Zero: dx/dy does not depend on x."""
         return 0.0

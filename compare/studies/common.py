@@ -16,6 +16,7 @@ from reference.certify import ROUTES
 from reference.compiler import hy
 from reference.exact import as_number, exact
 from reference.names import unknown
+from reference.problem import Problem
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -23,7 +24,6 @@ if TYPE_CHECKING:
 
     from compare.precision import Precision
     from compare.scoring import Scored
-    from reference.problem import Problem
 
 __all__ = ["SHORTER_N", "TRACE_N", "distinct", "forms_of", "made", "positive_end"]
 
@@ -97,13 +97,14 @@ def positive_end(value: Any, name: str) -> Fraction:
 
 
 def distinct(values: Sequence[Any], name: str, what: str) -> None:
-    """Refuse values that a double cannot tell apart.
+    """Refuse values, numbers as doubles, of which two are the same.
 
     Raises:
         ValueError: there are such.
     """
     if len(set(values)) < len(values):
-        raise ValueError(f"{name} has one {what} twice, to a double's precision; each is accepted once.")
+        precision = "" if isinstance(values[0], Problem) else ", to a double's precision"
+        raise ValueError(f"{name} has one {what} twice{precision}; each is accepted once.")
 
 
 def _notes(scored: Scored) -> dict[str, str]:

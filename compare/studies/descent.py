@@ -6,7 +6,7 @@ from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
 from compare.scoring import some
-from compare.studies.common import SHORTER_N, made, positive_end
+from compare.studies.common import SHORTER_N, distinct, made, positive_end
 from reference import Descent
 from reference.exact import as_number
 
@@ -49,7 +49,8 @@ def study(
     Raises:
         ValueError: an argument is outside its range, a name unknown, or a curve has no start to march from.
     """
-    problems = [Descent(name, g, start, end) for name in dict.fromkeys(some(curve, "curve"))]
+    problems = [Descent(name, g, start, end) for name in some(curve, "curve")]
+    distinct(problems, "curve", "curve")
     for problem in problems:
         _ = problem.start  # a cusp has none
     ends = [_last_tick(problem) if t_end is None else positive_end(t_end, "t_end") for problem in problems]
