@@ -80,7 +80,7 @@ ANGLES = (0.001, 0.1, 0.5, 1.0, 1.5, 2.0, 2.5, 3.0, 3.13, math.pi - 1e-6)
 
 def core() -> tuple[Group, ...]:
     """The grids of the dataset that ships with the package."""
-    epsilon = np.array([-8, -1, 1, 8]) / 16
+    epsilon = np.array([-4, 1, 4]) / 8
     return (
         Group(
             BRACHISTOCHRONE,

@@ -150,7 +150,7 @@ NEAR_PI = (3.1, 3.14, math.pi - 1e-6, math.pi - 1e-9)
 LIBRATION_AMPLITUDES = (0.001, 0.301, 0.601, 0.901, 1.0, 1.201, 1.501, 2.0, 2.5, 3.0, *NEAR_PI)
 FEW_BIT_AMPLITUDES = (0.125, 0.25, 0.5, 0.75, 1.0, 1.5, 2.0, 2.5, 3.0)
 LONG_AMPLITUDES = (0.001, 1.0, 2.0, 3.0, 3.14)
-EVENTS = 6
+EVENTS = 4
 LONG_TAYLOR_ELEMENTS = 7
 """Times 2^0 ... 2^6 s are integrated; later ones would take minutes each."""
 TO_THE_TOP = math.sqrt(4 * EARTH["g"])

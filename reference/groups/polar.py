@@ -17,6 +17,7 @@ __all__ = ["BOUNDARY", "FAMILY", "LAYOUTS", "MOTION", "TUNNEL_FAMILY", "TUNNEL_M
 
 Z0 = Coordinate("z0", "1", "height of the lowest point, r/r0")
 PSI = Coordinate("psi", "rad", "parameter of the curve: 0 at the release, pi at the lowest point")
+HEIGHT = Coordinate("height", "1", "fraction of the height between the lowest point and the release, on the way down")
 TAU = Coordinate("tau", "1", "time since the release in units of sqrt(r0^3/(2 G M))")
 TAU_INSIDE = Coordinate("tau", "1", "time since the release in units of sqrt(r0/g), g at the surface")
 EPSILON = Coordinate("epsilon", "1", "size of the neighbouring curve's deviation")
@@ -49,9 +50,9 @@ FAMILY = Layout(
     "/polar/family",
     "brachistochrones in an inverse-square field, by their lowest point",
     (Z0,),
-    {"psi": PSI, "epsilon": EPSILON},
+    {"psi": PSI, "height": HEIGHT, "epsilon": EPSILON},
     (),
-    rows(PolarBrachistochrone, "curve", *ONCE, "neighbour_gap"),
+    rows(PolarBrachistochrone, "curve", "by_height", *ONCE, "neighbour_gap"),
     PolarBrachistochrone,
     SOURCE,
     EQUATION,
@@ -92,9 +93,9 @@ TUNNEL_FAMILY = Layout(
     "/tunnel/family",
     "fastest tunnels through a planet of uniform density, by their lowest point",
     (Z0,),
-    {"psi": PSI, "epsilon": EPSILON},
+    {"psi": PSI, "height": HEIGHT, "epsilon": EPSILON},
     (),
-    rows(Tunnel, "curve", *ONCE, "neighbour_gap"),
+    rows(Tunnel, "curve", "by_height", *ONCE, "neighbour_gap"),
     Tunnel,
     TUNNEL_SOURCE,
     TUNNEL_EQUATION,
@@ -120,12 +121,16 @@ ENDS = tuple((z, phi) for z in (1.0, 0.75, 0.5, 0.25) for phi in (0.25, 1.0, 1.5
 
 def core() -> tuple[Group, ...]:
     """The grids of the dataset that ships with the package."""
-    epsilon = np.array([-8, -1, 1, 8]) / 16
+    epsilon = np.array([1, 4, 8]) / 16  # a negative one gives the same
     return (
-        Group(FAMILY, {}, {"z0": LOWEST, "psi": np.arange(202) / 64, "epsilon": epsilon}),
+        Group(FAMILY, {}, {"z0": LOWEST, "psi": np.arange(202) / 64, "height": np.arange(33) / 32, "epsilon": epsilon}),
         Group(MOTION, {}, {"z0": LOWEST, "tau": np.arange(193) / 64}),
         Group(BOUNDARY, {}, {"end_z": [end[0] for end in ENDS], "end_phi": [end[1] for end in ENDS]}),
-        Group(TUNNEL_FAMILY, {}, {"z0": LOWEST[::4], "psi": np.arange(202) / 64, "epsilon": epsilon}),
+        Group(
+            TUNNEL_FAMILY,
+            {},
+            {"z0": LOWEST[::4], "psi": np.arange(202) / 64, "height": np.arange(33) / 32, "epsilon": epsilon},
+        ),
         Group(TUNNEL_MOTION, {}, {"z0": LOWEST[::4], "tau": np.arange(193) / 64}),
     )
 
@@ -133,12 +138,20 @@ def core() -> tuple[Group, ...]:
 def full() -> tuple[Group, ...]:
     """The same groups with finer and larger grids."""
     lowest = np.unique(np.concatenate([LOWEST, np.arange(1, 128) / 128]))
-    epsilon = np.delete(np.arange(-32, 33) / 64, 32)
+    epsilon = np.arange(1, 65) / 64
     ends = [(z, phi) for z in np.arange(1, 33) / 32 for phi in np.arange(1, 33) / 16]
     return (
-        Group(FAMILY, {}, {"z0": lowest, "psi": np.arange(1601) / 512, "epsilon": epsilon}),
+        Group(
+            FAMILY,
+            {},
+            {"z0": lowest, "psi": np.arange(1601) / 512, "height": np.arange(1025) / 1024, "epsilon": epsilon},
+        ),
         Group(MOTION, {}, {"z0": lowest, "tau": np.arange(3073) / 1024}),
         Group(BOUNDARY, {}, {"end_z": [end[0] for end in ends], "end_phi": [end[1] for end in ends]}),
-        Group(TUNNEL_FAMILY, {}, {"z0": lowest, "psi": np.arange(1601) / 512, "epsilon": epsilon}),
+        Group(
+            TUNNEL_FAMILY,
+            {},
+            {"z0": lowest, "psi": np.arange(1601) / 512, "height": np.arange(1025) / 1024, "epsilon": epsilon},
+        ),
         Group(TUNNEL_MOTION, {}, {"z0": lowest, "tau": np.arange(3073) / 1024}),
     )

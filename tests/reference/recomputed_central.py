@@ -83,10 +83,17 @@ def uniform_ball(z0: Any) -> Callable[[Any], tuple[Any, Any, Any, Any]]:
 def polar_family(given: dict[str, Any], argument: Any) -> Values:
     """By integrals over Jacobi's amplitude, hypergeometric series, and differences of these."""
     z0 = given["z0"]
+
+    def down(i: int) -> Any:
+        return passed(z0, mp.sqrt((1 - argument) / argument))[i] if argument else whole(z0)[i]
+
     return {
         "z": lambda: 1 - (1 - z0) * mp.sin(argument / 2) ** 2,
         "phi": lambda: passed(z0, mp.tan(argument / 2))[0],
         "tau": lambda: passed(z0, mp.tan(argument / 2))[1],
+        "z_by_height": lambda: z0 + (1 - z0) * argument,
+        "phi_by_height": lambda: down(0),
+        "tau_by_height": lambda: down(1),
         "kappa": lambda: z0**3 / (1 - z0),
         "half_angle": lambda: whole(z0)[0],
         "descent_time": lambda: whole(z0)[1],
@@ -160,6 +167,14 @@ def tunnel_family(given: dict[str, Any], argument: Any) -> Values:
         "chord_gap": lambda: mp.pi - time,
         "neighbour_gap": lambda: neighbour(z0, argument, uniform_ball(z0)) - time,
     }
+
+    def down(i: int) -> Any:
+        z = z0 + (1 - z0) * argument
+        psi = 2 * mp.asin(mp.sqrt((1 - argument) * (1 + z) / (1 + z0)))
+        return rolled(fraction(z0), fraction(psi))[i]
+
+    for i, name in enumerate(("z_by_height", "phi_by_height", "tau_by_height")):
+        found[name] = lambda i=i: down(i)
     for i, name in enumerate(("z", "phi", "tau")):
         found[name] = lambda i=i: rolled(fraction(z0), fraction(argument))[i]
     return found
