@@ -103,7 +103,7 @@ def _errata(request: Request) -> int:
     """Print the errata, their checks run now; one that is not confirmed is a failure."""
     from compare.errata import entries, show
 
-    found = show.records(entries.ERRATA)
+    found = show.records(entries.ENTRIES)
     _print(show.render(found, request.form, _width()))
     return 0 if all(record["confirmed"] for record in found) else 1
 

@@ -14,7 +14,7 @@ from reference.problems.pendulum import Pendulum
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-__all__ = ["MOTION"]
+__all__ = ["MOTION", "is_slowness"]
 
 LENGTH = 2
 """In m; other than the report's 1 m, so that no power of it is hidden."""
@@ -23,7 +23,7 @@ OF_THE_REPORT = Pendulum("1", g=GRAVITY, length=1)
 
 
 @precisely
-def _is_slowness(form: Callable[[Any, Any], Any]) -> bool:
+def is_slowness(form: Callable[[Any, Any], Any]) -> bool:
     """Whether dt/dphi, of cos phi - cos phi0 and 2 g/l, is the reciprocal of the proven angular velocity."""
     angle, velocity = along(LONGER, "0.3")
     return near(form(mp.cos(angle) - mp.cos(1), 2 * exactly(str(GRAVITY)) / LENGTH), -1 / velocity)
@@ -100,7 +100,7 @@ MOTION = (
         "dt = dφ/(√(2g/l) √(cos φ − cos φ0)), as in (2.2) and (2.4)",
         "Both are held against the proven angular velocity of a pendulum of 2 m.", "None: (2.4) is right.",
         (lambda drop, factor: 1 / mp.sqrt(factor * mp.sqrt(drop)),
-         lambda drop, factor: 1 / (mp.sqrt(factor) * mp.sqrt(drop))), _is_slowness,
+         lambda drop, factor: 1 / (mp.sqrt(factor) * mp.sqrt(drop))), is_slowness,
     ),
     Erratum(
         REPORT, "before (2.5)",

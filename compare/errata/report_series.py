@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
     from compare.errata.cosines import Cosines
 
-__all__ = ["SERIES"]
+__all__ = ["EXACT_SERIES", "PHI_B", "PROVEN_PERIOD", "SERIES", "is_forcing", "is_period", "third_order_vanishes"]
 
 SMALL = Fraction(1, 1000)
 PHI_A: Cosines = {(1, 1): Fraction(1)}
@@ -37,15 +37,16 @@ def _residual(phi: Cosines, power: int, stiffness: Cosines = STIFFNESS) -> dict[
     return coefficient(plus(curved, times(stiffness, sine(phi))), power)
 
 
-def _third_order_vanishes(phi_b: Cosines) -> bool:
-    return not _residual(plus(PHI_A, phi_b), 3)
+def third_order_vanishes(phi_b: Cosines, alpha: Fraction = ALPHA) -> bool:
+    """Whether phi_A + phi_B obeys the equation of motion up to the third power of the amplitude."""
+    return not _residual(plus(PHI_A, phi_b), 3, {(0, 0): Fraction(1), (2, 0): -alpha})
 
 
 def _fifth_order_vanishes(phi_c: Cosines) -> bool:
     return sum(phi_c.values()) == 0 and not _residual(plus(PHI_A, PHI_B, phi_c), 5)
 
 
-def _is_forcing(wanted: dict[int, Fraction]) -> bool:
+def is_forcing(wanted: dict[int, Fraction]) -> bool:
     """Whether phi_C'' + phi_C is forced by these cosines, less beta cos: harmonics and their coefficients."""
     without_beta: Cosines = {(0, 0): Fraction(1), (2, 0): -ALPHA}
     found = _residual(plus(PHI_A, PHI_B), 5, without_beta)
@@ -72,7 +73,7 @@ def _swing() -> Any:
 
 
 @precisely
-def _is_period(ratio: Callable[[Any], Any]) -> bool:
+def is_period(ratio: Callable[[Any], Any]) -> bool:
     """Whether T/T0 is right to the fourth power of a small amplitude."""
     return bool(abs(ratio(exactly(str(SMALL))) - _swing()) < exactly(str(SMALL)) ** 6)
 
@@ -120,7 +121,7 @@ SERIES = (
         REPORT, "(3.6)",
         "T = 2π √(l/g) (1 + y0²/16 + 11 y0²/3072)", "T = 2π √(l/g) (1 + y0²/16 + 11 y0⁴/3072), as in (2.7)",
         PROVEN_PERIOD, "None: the column of approximations in table 9 was computed with the fourth power.",
-        (lambda a: 1 + a**2 / 16 + 11 * a**2 / 3072, lambda a: 1 + a**2 / 16 + 11 * a**4 / 3072), _is_period,
+        (lambda a: 1 + a**2 / 16 + 11 * a**2 / 3072, lambda a: 1 + a**2 / 16 + 11 * a**4 / 3072), is_period,
     ),
     Erratum(
         REPORT, "(4.1)",
@@ -142,7 +143,7 @@ SERIES = (
         EXACT_SERIES,
         "(4.12), β and (4.13) follow from it without another slip, and with (4.14) the approximations in table 12, "
         "whose largest error is 0.0351; all slips of section 4 put right, it is 0.0116.",
-        (PHI_B_PRINTED, PHI_B), _third_order_vanishes,
+        (PHI_B_PRINTED, PHI_B), third_order_vanishes,
     ),
     Erratum(
         REPORT, "(4.11), (4.12), left side",
@@ -154,13 +155,13 @@ SERIES = (
         REPORT, "(4.12), cos ωt",
         "5/512 ω² φ_init⁵", "17/1536 ω² φ_init⁵",
         EXACT_SERIES, "β, (4.13), (4.14), (4.15), and the column of approximations in table 12.",
-        ({1: Fraction(5, 512)}, {1: Fraction(17, 1536)}), _is_forcing,
+        ({1: Fraction(5, 512)}, {1: Fraction(17, 1536)}), is_forcing,
     ),
     Erratum(
         REPORT, "(4.12), cos 5ωt",
         "+1/7680 ω² φ_init⁵", "−3/2560 ω² φ_init⁵",
         EXACT_SERIES, "(4.13), (4.14), and the column of approximations in table 12.",
-        ({5: Fraction(1, 7680)}, {5: Fraction(-3, 2560)}), _is_forcing,
+        ({5: Fraction(1, 7680)}, {5: Fraction(-3, 2560)}), is_forcing,
     ),
     Erratum(
         REPORT, "β, after (4.12), and (4.15)",
@@ -191,6 +192,6 @@ SERIES = (
         REPORT, "(4.16)",
         "5 φ_init⁴/1024", "11 φ_init⁴/3072, as in (2.7)",
         PROVEN_PERIOD, "None: table 9 was computed with (2.7); from (4.15) as printed, 3 φ_init⁴/1024 follows.",
-        (lambda a: 1 + a**2 / 16 + 5 * a**4 / 1024, lambda a: 1 + a**2 / 16 + 11 * a**4 / 3072), _is_period,
+        (lambda a: 1 + a**2 / 16 + 5 * a**4 / 1024, lambda a: 1 + a**2 / 16 + 11 * a**4 / 3072), is_period,
     ),
 )  # fmt: skip

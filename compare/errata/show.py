@@ -8,19 +8,20 @@ import json
 from typing import TYPE_CHECKING, Any
 
 from compare import grid
-from compare.errata.erratum import REPORT, THESIS
+from compare.errata.erratum import REPORT, THESIS, Erratum
 from compare.grid import Column, Section, folded
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
 
-    from compare.errata.erratum import Erratum
+    from compare.errata.sound import Sound
 
 __all__ = ["FIELDS", "records", "render"]
 
-FIELDS = ("source", "place", "printed", "right", "check", "touches", "confirmed")
+FIELDS = ("kind", "source", "place", "printed", "right", "check", "touches", "confirmed")
 _SHORT = {REPORT: "report", THESIS: "thesis"}
-_COLUMNS = (Column("", left=True), Column("erratum", left=True))
+_KINDS = {"erratum": "Errata", "right": "Held and found right"}
+_COLUMNS = (Column("", left=True), Column("entry", left=True))
 _SHOWN = ("printed", "right", "check", "touches")
 _LATEX_WIDTH = 72
 
@@ -29,7 +30,9 @@ _HEADER = """\
 
 The project grew from two documents, and whoever works from them may meet these slips.
 Most are slips of the pen that no result rests on, as the last line of each entry says.
+Formulas that this project rests on and that are right as printed follow the errata of each source.
 An entry's check was run when this page was made: it is one test that the right form passes and the printed form fails.
+Of a formula that is right, the test fails for the same formula with a slip made on purpose.
 The same tests run with the test-suite, so that an entry which were none would not stay.
 The sources were read as text taken from their PDF files.
 The page is what this command prints with `--format markdown`:
@@ -40,27 +43,28 @@ python -m compare errata
 """
 
 
-def records(errata: Iterable[Erratum]) -> list[dict[str, Any]]:
-    """Each erratum by FIELDS, its check run now."""
+def records(entries: Iterable[Erratum | Sound]) -> list[dict[str, Any]]:
+    """Each entry by FIELDS, its check run now; of a formula found right, ``right`` and ``touches`` are empty."""
     return [
         {
+            "kind": "erratum" if isinstance(one, Erratum) else "right",
             "source": _SHORT[one.source],
             "place": one.place,
             "printed": one.printed,
-            "right": one.right,
+            "right": one.right if isinstance(one, Erratum) else "",
             "check": one.how,
-            "touches": one.touches,
+            "touches": one.touches if isinstance(one, Erratum) else "",
             "confirmed": one.confirmed(),
         }
-        for one in errata
+        for one in entries
     ]
 
 
 def render(found: list[dict[str, Any]], form: str = "text", width: int = 100) -> str:
-    """The records in one of the table formats; JSON is an object whose ``errata`` have FIELDS."""
+    """The records in one of the table formats; JSON is an object whose ``entries`` have FIELDS."""
     if form == "json":
         lines = ",\n  ".join(json.dumps(record, ensure_ascii=False) for record in found)
-        return f'{{"errata": [\n  {lines}\n]}}\n'
+        return f'{{"entries": [\n  {lines}\n]}}\n'
     if form == "csv":
         buffer = io.StringIO()
         writer = csv.DictWriter(buffer, FIELDS, lineterminator="\n")
@@ -73,10 +77,11 @@ def render(found: list[dict[str, Any]], form: str = "text", width: int = 100) ->
     return "\n".join(map(lay_out, _sections(found, _LATEX_WIDTH if form == "latex" else width)))
 
 
-def _of(found: list[dict[str, Any]]) -> Iterator[tuple[str, str, list[dict[str, Any]]]]:
-    """Each source: its short name, its citation, its records."""
+def _of(found: list[dict[str, Any]]) -> Iterator[tuple[str, str, str, list[dict[str, Any]]]]:
+    """Each source and kind: the short name of the source, its citation, the kind, the records."""
     for citation, name in _SHORT.items():
-        yield name, citation, [record for record in found if record["source"] == name]
+        for kind in _KINDS:
+            yield name, citation, kind, [one for one in found if (one["source"], one["kind"]) == (name, kind)]
 
 
 def _count(own: list[dict[str, Any]]) -> str:
@@ -84,18 +89,22 @@ def _count(own: list[dict[str, Any]]) -> str:
 
 
 def _markdown(found: list[dict[str, Any]]) -> Iterator[str]:
-    for name, citation, own in _of(found):
-        yield f"## The {name}\n\n{grid.markdown_text(citation)}: {_count(own)}.\n"
+    for name, citation, kind, own in _of(found):
+        if kind == "erratum":
+            yield f"## The {name}\n\n{grid.markdown_text(citation)}: {_count(own)}.\n"
+        else:
+            yield f"## The {name}: held and found right\n\n{_count(own)}.\n"
         for record in own:
-            lines = "\n".join(f"- {field}: {grid.markdown_text(record[field])}" for field in _SHOWN)
+            lines = "\n".join(f"- {field}: {grid.markdown_text(words)}" for field, words in _rows(record))
             yield f"### {record['place']}\n\n{lines}\n"
 
 
 def _sections(found: list[dict[str, Any]], width: int) -> Iterator[Section]:
-    for name, citation, own in _of(found):
+    for name, citation, kind, own in _of(found):
         rows = [row for record in own for row in (("where", record["place"]), *_rows(record), ("", ""))][:-1]
-        yield Section(f"errata-{name}", f"Errata: {citation}", (folded(_COLUMNS, rows, width),), _count(own) + ".")
+        title = f"{_KINDS[kind]}: {citation}"
+        yield Section(f"{kind}-{name}", title, (folded(_COLUMNS, rows, width),), _count(own) + ".")
 
 
 def _rows(record: dict[str, Any]) -> Iterator[tuple[str, str]]:
-    return ((field, record[field]) for field in _SHOWN)
+    return ((field, record[field]) for field in _SHOWN if record[field])

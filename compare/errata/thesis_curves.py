@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
     from compare.method import Tableau
 
-__all__ = ["CURVES"]
+__all__ = ["CURVES", "are_rates", "force"]
 
 RADIUS = 2
 """Of the rolling circle in m; other than 1, so that no power of it is hidden."""
@@ -104,14 +104,15 @@ def _expanded(sign: int) -> Callable[..., Any]:
 
 
 @precisely
-def _are_rates(form: Callable[[Any, Any, Any], tuple[Any, Any]]) -> bool:
+def are_rates(form: Callable[[Any, Any, Any], tuple[Any, Any]]) -> bool:
     """Whether form(theta, omega, g/R) is (omega', theta') at a proven state of the bead."""
     theta, omega = along(BEAD, WHEN)
     found = form(theta, omega, exactly(str(GRAVITY / RADIUS)))
     return all(near(a, b) for a, b in zip(found, reversed(rates(BEAD, WHEN)), strict=True))
 
 
-def _force(theta: Any, omega: Any, pull: Any) -> Any:
+def force(theta: Any, omega: Any, pull: Any) -> Any:
+    """The numerator of (1.48)."""
     return mp.sin(theta) * omega**2 / 2 - pull / 2 * mp.sin(theta)
 
 
@@ -192,8 +193,8 @@ CURVES = (
         "the column ½ sin θ ω² − (g/2a) sin θ over 1 + cos θ, without a fraction and without the row for θ'",
         "the column of (½ sin θ ω² − (g/2R) sin θ)/(1 + cos θ) and ω",
         AT_A_STATE, "None: the listing computes both rows.",
-        (lambda theta, omega, pull: (_force(theta, omega, pull), 1 + mp.cos(theta)),
-         lambda theta, omega, pull: (_force(theta, omega, pull) / (1 + mp.cos(theta)), omega)), _are_rates,
+        (lambda theta, omega, pull: (force(theta, omega, pull), 1 + mp.cos(theta)),
+         lambda theta, omega, pull: (force(theta, omega, pull) / (1 + mp.cos(theta)), omega)), are_rates,
     ),
     Erratum(
         THESIS, "section 3.1, steps 2 and 3",

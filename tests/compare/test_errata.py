@@ -15,10 +15,12 @@ from mpmath import mp
 from compare.__main__ import main
 from compare.errata import show
 from compare.errata.cosines import coefficient, plus, sine, times
-from compare.errata.entries import ERRATA
+from compare.errata.entries import ENTRIES, ERRATA
 from compare.errata.erratum import REPORT, THESIS
 from compare.errata.evidence import near, rounds_to
 from compare.errata.report_series import BETA, BETA_PRINTED, PHI_B, PHI_B_PRINTED, PHI_C, PHI_C_PRINTED
+from compare.errata.sound import SOUND
+from reference.problems.descent import Descent
 from reference.problems.pendulum import Pendulum
 
 ROOT = Path(__file__).parents[2]
@@ -40,6 +42,14 @@ def test_an_erratum_that_is_none_is_not_confirmed(erratum):
         assert not dataclasses.replace(erratum, forms=forms).confirmed()
 
 
+@pytest.mark.parametrize("sound", SOUND, ids=lambda one: f"{one.source[:4]}-{one.place}")
+def test_a_formula_that_is_right_passes_and_fails_with_a_slip(sound):
+    slip, printed = sound.forms
+    assert sound.confirmed()
+    assert not dataclasses.replace(sound, forms=(slip, slip)).confirmed()
+    assert not dataclasses.replace(sound, forms=(printed, printed)).confirmed()
+
+
 def test_no_place_stands_twice():
     places = [(one.source, one.place) for one in ERRATA]
     assert len(set(places)) == len(places)
@@ -48,7 +58,7 @@ def test_no_place_stands_twice():
 
 def test_checks_leave_the_precision_as_it_was():
     before = mp.prec
-    assert all(one.confirmed() for one in ERRATA)
+    assert all(one.confirmed() for one in ENTRIES)
     assert mp.prec == before
 
 
@@ -84,7 +94,7 @@ def test_the_slips_of_section_4_cost_table_12_what_the_page_says():
         for series in ((PHI_B_PRINTED, PHI_C_PRINTED, BETA_PRINTED), (PHI_B, PHI_C, BETA))
     ]
     assert [round(float(error), 4) for error in largest] == [0.0351, 0.0116]
-    page = show.render(show.records(ERRATA), "markdown")
+    page = show.render(show.records(ENTRIES), "markdown")
     assert "0.0351" in page
     assert "0.0116" in page
     assert round(float(approximation(8.01, PHI_B_PRINTED, PHI_C_PRINTED, BETA_PRINTED)), 7) == -0.0104871
@@ -111,7 +121,13 @@ def test_the_misprinted_polar_form_would_sweep_what_the_page_says():
 
     whole = mp.degrees(2 * mp.quad(slope, mp.linspace(0, mp.pi, 5)))
     assert rounds_to(whole, "74.87")
-    assert "74.87°" in show.render(show.records(ERRATA), "markdown")
+    assert "74.87°" in show.render(show.records(ENTRIES), "markdown")
+
+
+def test_the_times_of_the_race_are_what_the_page_says():
+    page = show.render(show.records(ENTRIES), "markdown")
+    for curve in ("cycloid", "quarter_ellipse", "circular_arc", "quartic", "line"):
+        assert f"{Descent(curve, g='9.81').values('descent_time', [None], 1).item():.4f} s" in page
 
 
 def test_the_page_is_what_the_command_prints(capsys):
@@ -121,29 +137,29 @@ def test_the_page_is_what_the_command_prints(capsys):
 
 @pytest.mark.parametrize("form", ["text", "markdown", "latex"])
 def test_every_erratum_stands_in_what_people_read(form):
-    shown = show.render(show.records(ERRATA), form)
-    for one in ERRATA:
+    shown = show.render(show.records(ENTRIES), form)
+    for one in ENTRIES:
         assert one.place.split(",")[0] in shown
     assert f"{sum(one.source == THESIS for one in ERRATA)} of" in shown
 
 
 def test_text_fits_a_narrow_terminal():
-    lines = show.render(show.records(ERRATA), "text", 80).splitlines()
-    assert max(len(line) for line in lines if not line.startswith("Errata:")) <= 80
+    lines = show.render(show.records(ENTRIES), "text", 80).splitlines()
+    assert max(len(line) for line in lines if not line.startswith(("Errata:", "Held and found right:"))) <= 80
 
 
 def test_programs_read_the_same_records():
-    found = show.records(ERRATA)
-    read = json.loads(show.render(found, "json"))["errata"]
+    found = show.records(ENTRIES)
+    read = json.loads(show.render(found, "json"))["entries"]
     assert read == found
     rows = list(csv.DictReader(io.StringIO(show.render(found, "csv"))))
-    assert [row["place"] for row in rows] == [one.place for one in ERRATA]
+    assert [row["place"] for row in rows] == [one.place for one in ENTRIES]
     assert {row["confirmed"] for row in rows} == {"yes"}
 
 
 def test_what_is_not_confirmed_is_said_and_is_a_failure(monkeypatch, capsys):
     none = dataclasses.replace(ERRATA[0], forms=(ERRATA[0].forms[1],) * 2)
-    monkeypatch.setattr("compare.errata.entries.ERRATA", (none, *ERRATA[1:]))
+    monkeypatch.setattr("compare.errata.entries.ENTRIES", (none, *ENTRIES[1:]))
     assert main(["errata"]) == 1
     own = sum(one.source == REPORT for one in ERRATA)
     assert f"{own - 1} of {own} entries are confirmed" in capsys.readouterr().out
