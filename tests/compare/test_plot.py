@@ -114,3 +114,21 @@ def test_an_orbit_that_does_not_move_is_drawn():
         for trace in (study.traces[0], study.exact[0])
     ]
     assert len(plot.files(dataclasses.replace(study, traces=(still[0],), exact=(still[1],)))) == 8
+
+
+def test_a_case_has_the_figures_of_what_it_has():
+    study = made_study(methods=("verlet",))
+    bare = dataclasses.replace(CASE, drift=None, axes=(), step="", unit="", error="|x - exact|/max |x|")
+    cells = tuple(dataclasses.replace(cell, case=bare) for cell in study.error_vs_n)
+    with style():
+        found = dict(plot.figures(dataclasses.replace(study, cases=(bare,), error_vs_n=cells)))
+    assert list(found) == ["pendulum-error-vs-n", "pendulum-work-precision"]
+    axes = found["pendulum-error-vs-n"].axes
+    assert axes[0].get_ylabel() == "largest |x - exact|/max |x|"
+    assert axes[1].get_xlabel() == "step size h = 10/N"
+
+
+def test_a_label_is_drawn_with_the_symbols_of_its_inputs():
+    with style():
+        figure = plot.work_figure(made_study(methods=("verlet",)), CASE)
+    assert "θ₀ = 1.0 rad" in figure.texts[0].get_text()

@@ -11,10 +11,12 @@ import pytest
 from made_study import made_case, made_cell
 from mpmath import mp
 
+from compare.march import march
 from compare.methods import find
 from compare.precision import precision
-from compare.scores import Course, fit_order, score_method, slope_with_interval, student_95
+from compare.scores import Course, fit_order, score_errors, score_method, slope_with_interval, student_95
 from reference import Pendulum
+from reference.problems.cycloid import CycloidalPendulum
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -179,3 +181,48 @@ def test_verlets_energy_error_stays_bounded_and_rk4s_drifts() -> None:
     _, (rk4,) = score_method(RK4, [course], FLOAT64)
     assert abs(verlet.slope_per_period) < 3 * verlet.slope_interval
     assert abs(rk4.slope_per_period) > 10 * rk4.slope_interval
+
+
+def test_norms_and_digits_are_of_the_errors_at_the_samples() -> None:
+    course = Course(Pendulum(1.0), 128, Fraction(10), FLOAT64)
+    ((cell,), _) = score_method(RK4, [course], FLOAT64)
+    (states,) = (result.states for result in march(RK4, [course.lane], FLOAT64))
+    errors = np.abs(states - course.truth[..., 0])
+    assert cell.rms_error == pytest.approx(math.sqrt(np.mean(errors[:, 0] ** 2)), rel=1e-9)
+    assert cell.max_velocity_error == pytest.approx(np.max(errors[:, 1]), rel=1e-9)
+    assert cell.end_velocity_error == pytest.approx(errors[-1, 1], rel=1e-9)
+    assert cell.rms_velocity_error == pytest.approx(math.sqrt(np.mean(errors[:, 1] ** 2)), rel=1e-9)
+    assert cell.digits == pytest.approx(-math.log10(cell.max_error / np.max(np.abs(course.truth[:, 0, 0]))), rel=1e-9)
+
+
+def test_digits_are_no_more_than_the_format_holds_and_no_less_than_none() -> None:
+    fmt = precision("float32")
+    ((exact,), _) = score_method(find("verlet"), [Course(Pendulum(0, omega0=0), 16, Fraction(1), fmt)], fmt)
+    ((lost,), _) = score_method(find("euler"), [Course(Pendulum(1.0), 16, Fraction(100), fmt)], fmt)
+    assert exact.digits == pytest.approx(24 * math.log10(2))
+    assert lost.digits == 0
+
+
+@pytest.mark.parametrize("omega0", [2.0, -8.0])
+def test_a_pendulum_set_going_is_scored_like_a_released_one(omega0: float) -> None:
+    """Rotation and libration from a moving start: orders, floors, drift."""
+    courses = [Course(Pendulum(0.5, omega0=omega0), 2**k, Fraction(4), FLOAT64) for k in range(8, 17)]
+    cells, drifts = score_method(RK4, courses, FLOAT64)
+    fitted = fit_order(RK4, cells)
+    assert fitted.fitted_order == pytest.approx(4, abs=0.1)
+    assert cells[-1].floor
+    assert not cells[2].floor
+    assert all(drift.max_drift_above_rest > 0 for drift in drifts)
+
+
+def test_the_separatrix_has_a_trend_per_second() -> None:
+    _, (drift,) = score_method(RK4, [Course(Pendulum(0, g=1, omega0=2), 256, Fraction(4), FLOAT64)], FLOAT64)
+    assert drift.case.cycle == "s"
+    assert math.isfinite(drift.slope_per_period)
+
+
+def test_errors_in_the_units_of_the_state_are_not_divided_by_its_size() -> None:
+    course = Course(CycloidalPendulum(2.0), 128, Fraction(10), FLOAT64)
+    (plain,), ((relative,), _) = score_errors(RK4, [course], FLOAT64), score_method(RK4, [course], FLOAT64)
+    assert plain.max_error == pytest.approx(relative.max_error * course.sizes[0], rel=1e-12)
+    assert plain.digits == relative.digits

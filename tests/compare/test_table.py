@@ -7,13 +7,15 @@ import dataclasses
 import io
 import json
 import math
+import pickle
 import re
 
 import pytest
-from made_study import METHODS, made_study
+from made_study import METHODS, made_case, made_study
 
 from compare import grid, machine, table
 from compare.grid import Column, Grid, Section
+from compare.records import Defect, Growth, OwnPeriod, Phase, Study
 
 STUDY = made_study()
 DEFAULT_TABLES = ("error_vs_n", "order", "energy_drift")
@@ -158,3 +160,105 @@ def test_latex_sets_powers_of_ten():
 def test_an_unknown_format_is_refused():
     with pytest.raises(ValueError, match="'yaml' is not one of text, markdown"):
         table.render(STUDY, "yaml")
+
+
+def extra_study(*scores: str, velocity: bool = True) -> Study:
+    """A study with every score of two methods at three N."""
+    study = made_study(methods=("verlet", "rk4"), n=(128, 512, 2048))
+    (case,) = study.cases
+    where = [(method, n, 10 / n, case) for method in ("verlet", "rk4") for n in (128, 512, 2048)]
+    cells = study.error_vs_n
+    if not velocity:
+        blank = dict.fromkeys(("max_velocity_error", "rms_velocity_error", "end_velocity_error"), math.nan)
+        cells = tuple(dataclasses.replace(cell, **blank) for cell in cells)
+    growths = [
+        Growth(*at, quantity, 1.0 + i / 10, 0.25, law, 5, 1, floor=law == "t")
+        for at in where
+        for i, (quantity, law) in enumerate((("place", "t"), ("phase", "t^2"), ("energy", "")))
+    ]
+    return dataclasses.replace(
+        study,
+        scores=scores,
+        error_vs_n=cells,
+        phase=tuple(Phase(*at, 1.25e-3, -1e-3, 2.5e-4, 1e-4, int(at[1] == 128)) for at in where),
+        growth=tuple(growths),
+        period=tuple(OwnPeriod(*at, 2.0, -3.75e-5) for at in where),
+        defects=tuple(Defect(*at, math.nan if at[0] == "rk4" else 4.5e-16, 6.25e-7) for at in where),
+    )
+
+
+def test_only_the_scores_that_are_wanted_are_shown():
+    titles = [section.title.partition(",")[0] for section in table.sections(extra_study("drift", "period"))]
+    assert titles == ["Energy drift", "Energy trend", "Period"]
+    assert [section.title.partition(",")[0] for section in table.sections(extra_study())] == []
+
+
+def test_norms_are_of_place_and_velocity_with_digits_and_work():
+    text = table.render(extra_study("norms"), width=120)
+    cell = next(cell for cell in extra_study().error_vs_n if (cell.method, cell.n) == ("rk4", 512))
+    numbers = (cell.max_error, cell.rms_error, cell.end_error, cell.max_velocity_error)
+    for number in numbers:
+        assert f"{number:.2e}" in text
+    assert f"{cell.digits:.1f}" in text
+    assert "max v" in text
+    assert "max v" not in table.render(extra_study("norms", velocity=False), width=120)
+
+
+def test_phase_and_amplitude_are_marked_where_states_were_lost():
+    text = table.render(extra_study("phase"))
+    assert re.search(r"^ *128 .* 1\.25e-03! +1\.25e-03!$", text, re.MULTILINE)
+    assert re.search(r"^ *512 .* 1\.25e-03 +1\.25e-03$", text, re.MULTILINE)
+    assert "! means that some states are on no orbit" in text
+    assert "2.50e-04" in text.partition("Amplitude")[2]
+
+
+def test_growth_has_a_law_an_exponent_and_a_mark_for_rounding():
+    text = table.render(extra_study("growth"))
+    assert re.search(r"^verlet +t +1\.00 ± 0\.25\*", text, re.MULTILINE)
+    assert re.search(r"^rk4 +t\^2 +1\.10 ± 0\.25 ", text, re.MULTILINE)
+    assert re.search(r"^rk4 +- +1\.20 ± 0\.25", text, re.MULTILINE)
+
+
+def test_a_defect_that_no_method_has_is_no_column():
+    symplecticity, reversibility = table.sections(extra_study("defects"))
+    assert [column.label for column in symplecticity.grids[0].columns] == ["N", "h [s]", "verlet"]
+    assert [column.label for column in reversibility.grids[0].columns] == ["N", "h [s]", "verlet", "rk4"]
+
+
+def test_machine_forms_hold_all_that_was_scored_whatever_is_shown():
+    study = extra_study("error")
+    found = _strict_json(table.render(study, "json"))["tables"]
+    assert list(found) == list(machine.COLUMNS)
+    assert found["phase"][0] == {
+        "method": "verlet", "n": 128, "h": 0.078125, "theta0": 1.0, "max_phase_error": 1.25e-3,
+        "end_phase_error": -1e-3, "max_amplitude_error": 2.5e-4, "end_amplitude_error": 1e-4, "lost": 1,
+    }  # fmt: skip
+    assert found["defects"][-1]["symplecticity"] is None
+    assert list(table.files(study, "csv")) == [f"pendulum-{name}.csv" for name in machine.COLUMNS]
+
+
+def test_cases_of_several_forms_share_their_columns_in_machine_forms():
+    one, other = (
+        dataclasses.replace(made_case(1.0), inputs=inputs, label=label)
+        for inputs, label in (((("form", "z"), ("z0", 0.5)), "z"), ((("form", "arc"), ("arc", 2.0)), "arc"))
+    )
+    study = made_study(methods=("rk4",), n=(128,))
+    cells = tuple(dataclasses.replace(study.error_vs_n[0], case=case) for case in (one, other))
+    found = machine.rows(dataclasses.replace(study, cases=(one, other), error_vs_n=cells), "error_vs_n")
+    assert [(row["form"], row["z0"], row["arc"]) for row in found] == [("z", 0.5, None), ("arc", None, 2.0)]
+
+
+def test_an_input_of_its_case_is_read_off_a_record_and_nothing_else():
+    cell = STUDY.error_vs_n[1]
+    assert cell.theta0 == 1.0
+    with pytest.raises(AttributeError, match="Cell has no attribute 'z0'"):
+        _ = cell.z0
+    assert pickle.loads(pickle.dumps(cell)) == cell  # noqa: S301 - made here
+
+
+def test_a_case_without_a_conserved_quantity_has_no_drift():
+    case = dataclasses.replace(made_case(1.0), drift=None)
+    study = made_study(methods=("rk4",), n=(128,))
+    cells = tuple(dataclasses.replace(cell, case=case) for cell in study.error_vs_n)
+    bare = dataclasses.replace(study, cases=(case,), error_vs_n=cells, order=(), energy_drift=())
+    assert [section.title.partition(",")[0] for section in table.sections(bare)] == ["Error against N"]
