@@ -10,11 +10,8 @@ if TYPE_CHECKING:
 
 __all__ = ["REPORT", "THESIS", "Erratum"]
 
-REPORT = "O. Kureš, M. Mikloš, L. Trnka, Matematické kyvadlo"
-THESIS = (
-    "J. Šalinović, Problem brahistokrone u nehomogenom gravitacijskom polju, University of Split, 2022, "
-    "urn:nbn:hr:166:949237 (CC BY 4.0)"
-)
+REPORT, THESIS = "report", "thesis"
+"""The sources, by their keys in the data file of what they print."""
 
 
 @dataclass(frozen=True)

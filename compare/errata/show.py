@@ -8,8 +8,9 @@ import json
 from typing import TYPE_CHECKING, Any
 
 from compare import grid
-from compare.errata.erratum import REPORT, THESIS, Erratum
+from compare.errata.erratum import Erratum
 from compare.grid import Column, Section, folded
+from compare.published.source import sources
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
@@ -19,7 +20,6 @@ if TYPE_CHECKING:
 __all__ = ["FIELDS", "records", "render"]
 
 FIELDS = ("kind", "source", "place", "printed", "right", "check", "touches", "confirmed")
-_SHORT = {REPORT: "report", THESIS: "thesis"}
 _KINDS = {"erratum": "Errata", "right": "Held and found right"}
 _COLUMNS = (Column("", left=True), Column("entry", left=True))
 _SHOWN = ("printed", "right", "check", "touches")
@@ -48,7 +48,7 @@ def records(entries: Iterable[Erratum | Sound]) -> list[dict[str, Any]]:
     return [
         {
             "kind": "erratum" if isinstance(one, Erratum) else "right",
-            "source": _SHORT[one.source],
+            "source": one.source,
             "place": one.place,
             "printed": one.printed,
             "right": one.right if isinstance(one, Erratum) else "",
@@ -79,7 +79,7 @@ def render(found: list[dict[str, Any]], form: str = "text", width: int = 100) ->
 
 def _of(found: list[dict[str, Any]]) -> Iterator[tuple[str, str, str, list[dict[str, Any]]]]:
     """Each source and kind: the short name of the source, its citation, the kind, the records."""
-    for citation, name in _SHORT.items():
+    for name, citation in sources().items():
         for kind in _KINDS:
             yield name, citation, kind, [one for one in found if (one["source"], one["kind"]) == (name, kind)]
 
