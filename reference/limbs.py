@@ -237,7 +237,7 @@ def ziv(
         if bits > max_bits:
             raise WorkBoundError(
                 f"{what} could not be decided with {max_bits} bits of working precision, the limit; "
-                "a value this close to a rounding boundary, or a time this long, is not served."
+                "fewer digits, or inputs less extreme, are accepted."
             )
         with ctx.workprec(bits):
             for row, balls in zip(pending, enclose(pending), strict=True):

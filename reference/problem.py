@@ -19,6 +19,7 @@ from reference.arithmetic import MPMATH
 from reference.certify import Certified
 from reference.exact import exact_array, positive
 from reference.limbs import MAX_BITS, to_limbs
+from reference.names import unknown
 from reference.routes import enclosure, quadrature
 
 if TYPE_CHECKING:
@@ -166,9 +167,12 @@ class Problem:
         """The row of this name.
 
         Raises:
-            KeyError: there is none.
+            KeyError: there is none; the message gives the nearest names.
         """
-        return {row.name: row for row in self.rows}[name]
+        known = {row.name: row for row in self.rows}
+        if name not in known:
+            raise KeyError(unknown("row", str(name), known))
+        return known[name]
 
     def serves(self, row: str) -> bool:
         """Whether this problem has a row that its family knows."""

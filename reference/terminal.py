@@ -62,7 +62,11 @@ class Parser(argparse.ArgumentParser):
             name = word.partition("=")[0]
             if is_option and name not in self._option_string_actions:
                 kind = ("option", self._option_string_actions) if commands is None else ("command", commands)
-                self.error(unknown(kind[0], name, [known for known in kind[1] if known not in {"-h", "--help"}]))
+                said = unknown(kind[0], name, [known for known in kind[1] if known not in {"-h", "--help"}])
+                single = commands is None and not word.startswith("--")
+                self.error(
+                    f"{said[:-1]}; a value that begins with a minus is written --OPTION=VALUE." if single else said
+                )
 
     def error(self, message: str) -> NoReturn:
         """Raise ValueError with the sentence; ``run`` prints it."""

@@ -48,8 +48,8 @@ ROOT = {
     "references": "C. Huygens, Horologium Oscillatorium, 1673; P. F. Byrd and M. D. Friedman, Handbook of Elliptic "
     "Integrals, Springer 1971; NIST Digital Library of Mathematical Functions, chapters 19, 20 and 22; further ones "
     "stand beside the variables",
-    "source": "closed forms, integrals and zeros in ball arithmetic, each limb the one correct rounding of the exact value; held against "
-    "the Taylor method in MPFR arithmetic and against quadrature and elliptic functions of mpmath",
+    "source": "closed forms, integrals and zeros in ball arithmetic, each limb the one correct rounding of the exact "
+    "value; held against the Taylor method in MPFR arithmetic and against quadrature and elliptic functions of mpmath",
     "inputs": "exact binary64",
     "comment": "x = value + tail[0] + tail[1]: value is x correctly rounded to binary64, each tail limb the correctly "
     "rounded rest; about 48 digits",

@@ -196,6 +196,18 @@ class CentralBrachistochrone(Problem):
         limit = TAYLOR_TAU**2 * depth * scales[over]
         return all(t >= 0 and t * t <= limit for t in arguments)
 
+    def half_angle(self) -> Certified:
+        """The angle in rad from the release to the lowest point."""
+        return self.certified("half_angle")
+
+    def descent_time(self) -> Certified:
+        """The dimensionless time from the release to the lowest point."""
+        return self.certified("descent_time")
+
+    def arrival_time(self) -> Certified:
+        """The dimensionless time to the end, or to where z = 1 again."""
+        return self.certified("arrival_time")
+
     def certified(self, row: str, argument: Any = None, component: int = 0) -> Certified:
         """One number of a row as a proven scalar.
 
