@@ -22,28 +22,34 @@ _GROWTH_NOTE = (
     "exponent of t ± its 95 % interval; no law where none is clear\n"
     "* means that the error is rounding: the mean of marches from several starts"
 )
-_GROWTH_NAN = "nan means too few periods, or an error that is no number: 32 periods and 32 samples make four windows"
+_GROWTH_NAN = "nan means fewer than 32 periods, or an error that is no number"
 
 
 def _norms(study: Study, case: Case, declared: dict[str, int], width: int) -> Iterator[Section]:
     cells = [cell for cell in study.error_vs_n if cell.case == case]
     if not cells:
         return
+    labels = ["max", "rms", "end", "digits", "evaluations"]
+    grids = [of_steps(cells, declared, width, labels, _place_norms)]
     velocity = not all(math.isnan(cell.max_velocity_error) for cell in cells)
-    labels = ["max", "rms", "end", *(["max v", "rms v", "end v"] if velocity else []), "digits", "evaluations"]
-
-    def shown(cell: Cell) -> list[str]:
-        errors = [cell.max_error, cell.rms_error, cell.end_error]
-        errors += [cell.max_velocity_error, cell.rms_velocity_error, cell.end_velocity_error] if velocity else []
-        return [*map(scientific, errors), digits(cell.digits, ".1f"), str(cell.evaluations)]
-
+    if velocity:
+        grids.append(of_steps(cells, declared, width, ["max v", "rms v", "end v"], _velocity_norms))
     unit = f", in {case.unit}" if case.unit else ""
     rate = f"; v: of the velocity{', per second' if case.unit else ', relative to its largest'}" if velocity else ""
     yield Section(
         name=f"norms-{grid.slug(case.label)}",
-        title=f"Norms, {case.label}: {case.error}{unit}{rate}; correct digits of the place; work",
-        grids=(of_steps(cells, declared, width, labels, shown),),
+        title=f"Norms, {case.label}: {case.error}{unit}, its correct digits, and the work{rate}",
+        grids=tuple(grids),
     )
+
+
+def _place_norms(cell: Cell) -> list[str]:
+    errors = map(scientific, (cell.max_error, cell.rms_error, cell.end_error))
+    return [*errors, digits(cell.digits, ".1f"), str(cell.evaluations)]
+
+
+def _velocity_norms(cell: Cell) -> list[str]:
+    return list(map(scientific, (cell.max_velocity_error, cell.rms_velocity_error, cell.end_velocity_error)))
 
 
 def _phase(study: Study, case: Case, declared: dict[str, int], width: int) -> Iterator[Section]:
@@ -56,7 +62,7 @@ def _phase(study: Study, case: Case, declared: dict[str, int], width: int) -> It
         grids=by_steps(
             found, declared, width, lambda phase: [scientific(phase.max_phase_error) + "!" * bool(phase.lost)]
         ),
-        note="! means that some states are on no orbit of the exact motion's kind, and have no phase"
+        note="! means that some states are on no orbit of the exact kind and have no phase"
         if any(phase.lost for phase in found)
         else "",
     )

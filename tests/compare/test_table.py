@@ -187,6 +187,22 @@ def extra_study(*scores: str, velocity: bool = True) -> Study:
     )
 
 
+@pytest.mark.parametrize("width", [80, 120])
+def test_every_score_fits_the_width_of_the_terminal(width):
+    study = extra_study("norms", "phase", "growth", "period", "defects")
+    for section in table.sections(study, width):
+        assert max(len(line) for line in grid.text(section).splitlines()[1:]) <= width
+
+
+@pytest.mark.parametrize("form", ["markdown", "latex"])
+def test_every_score_has_every_readable_form(form):
+    study = extra_study("norms", "phase", "growth", "period", "defects")
+    text = table.render(study, form)
+    mark = "### " if form == "markdown" else r"\caption{"
+    assert text.count(mark + "Growth,") >= 3
+    assert mark + "Symplecticity defect," in text
+
+
 def test_only_the_scores_that_are_wanted_are_shown():
     titles = [section.title.partition(",")[0] for section in table.sections(extra_study("drift", "period"))]
     assert titles == ["Energy drift", "Energy trend", "Period"]
