@@ -21,7 +21,8 @@ __all__ = ["INLINE_SINE", "Shape"]
 
 SHORT_BLOCK, SHORTEST_BLOCK = 8, 4
 BLOCK_SIZE, WIDE_BLOCK_SIZE = 256, 32
-"""Evaluations in a compiled block at most, about; few in wide formats, where a call costs no more than an operation."""
+"""Evaluations in a compiled block at most, about, and twice as many in the longest marches; few in wide formats, where
+a call costs no more than an operation."""
 CALL_SECONDS, COMPILE_SECONDS = 6e-6, 6e-5
 """Of one call of a block, and of compiling an evaluation for one lane of a batch: a longer block saves the one and
 costs the other."""
@@ -54,7 +55,8 @@ class Shape:
         lasting = sum(2 * lane.n > lanes[0].n for lane in lanes)  # through the half of the march that all others miss
         batch = min(fmt.lanes, 1 << (max(lasting, 8) - 1).bit_length(), JACOBIAN_BATCH if jacobians else fmt.lanes)
         balance = math.sqrt(2 * lanes[0].n * CALL_SECONDS / (COMPILE_SECONDS * batch * size))
-        room = min(BLOCK_SIZE / size, max(balance, SHORTEST_BLOCK)) if fmt.lanes > 1 else WIDE_BLOCK_SIZE / size
+        most = BLOCK_SIZE * (2 if inline else 1) if fmt.lanes > 1 else WIDE_BLOCK_SIZE
+        room = min(most / size, max(balance, SHORTEST_BLOCK))
         steps = SHORT_BLOCK if grain == 1 else grain
         while steps > room and steps // 2 >= max(method.opening, 1):
             steps //= 2
