@@ -8,9 +8,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from compare.judge.candidate import Candidate
+from compare.judge.consistency import advance_of_a_constant_slope, iterates
 from compare.judge.courses import Steps, Whole
 from compare.judge.deadline import TimeOut, deadline
-from compare.judge.defects import reversibility, symplecticity
+from compare.judge.defects import Evidence, reversibility, symplecticity
 from compare.judge.energy import energy
 from compare.judge.engine import Lanes, Traced, chosen, repeatable
 from compare.judge.field import Exhausted, MisuseError
@@ -115,6 +116,14 @@ def _checked(candidate: Candidate, claims: Claims, scene: Scene) -> Check:
     if timed:
         frame = Scene(scene.problem, Frame(FRAME[0], FRAME[1] * scene.problem.rate()))
         swinging = measured(_marcher(candidate, frame, h)[0], SPAN * h, counts)
+    iterating = iterates(candidate, marcher, h)
+    kept = energy(marcher, h, _most_steps(marcher, calls))
+    evidence = Evidence(
+        possible=name != "compiled" and still.kind != "own steps",
+        iterates=iterating,
+        bounded=kept.behaviour in {"rounding", "bounded"},
+    )
+    explicit = not (marcher.whole or iterating)
     return Check(
         name=candidate.name,
         form=candidate.form.name,
@@ -123,9 +132,10 @@ def _checked(candidate: Candidate, claims: Claims, scene: Scene) -> Check:
         claims=claims,
         still=still,
         swinging=swinging,
-        symplecticity=symplecticity(marcher, h, iterates=still.kind != "own steps"),
-        reversibility=reversibility(marcher, h, iterates=still.kind != "own steps"),
-        energy=energy(marcher, h, _most_steps(marcher, calls)),
+        symplecticity=symplecticity(marcher, h, evidence),
+        reversibility=reversibility(marcher, h, evidence),
+        energy=kept,
+        advance=advance_of_a_constant_slope(candidate, scene, h) if explicit else None,
     )
 
 

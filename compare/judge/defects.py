@@ -15,15 +15,15 @@ if TYPE_CHECKING:
 
     from compare.judge.courses import Marcher
 
-__all__ = ["Defect", "reversibility", "symplecticity"]
+__all__ = ["Defect", "Evidence", "reversibility", "symplecticity"]
 
 ROUNDING = 1e-11
 """A defect up to this is rounding."""
 FACTORS = (0.5, 1, 2)
 """Steps with which a defect is measured, over h."""
 TOLERATED, GROWTH = 1e-5, 256.0
-"""A defect up to the first that grows over FACTORS by less than the second is what the tolerance of an inner iteration
-leaves: one of the method that is so small is of a high power of the step, and grows by thousands."""
+"""A defect up to the first that grows over FACTORS by less than the second may be what the tolerance of an inner
+iteration leaves: one of the method that is so small is of a high power of the step, and grows by thousands."""
 STATES = 4
 """States at which a defect is measured."""
 STEPS_BACK = 32
@@ -42,20 +42,38 @@ class Defect:
         h: the step, s.
         none: whether it is rounding, or the tolerance of an inner iteration.
         tolerance: whether it is the latter.
+        undecided: whether it has the size of a tolerance, and nothing says that it is one or that it is a fault.
     """
 
     size: float
     h: float
     none: bool
     tolerance: bool = False
+    undecided: bool = False
 
 
-def _judged(sizes: Sequence[float], h: float, *, iterates: bool) -> Defect:
-    """The verdict of the defects at FACTORS of h; ``iterates`` says whether an inner iteration may have left them."""
+@dataclass(frozen=True)
+class Evidence:
+    """What else is known of an integrator that may iterate inside.
+
+    Attributes:
+        possible: whether it may: not where it is compiled, or chooses its own steps.
+        iterates: whether the calls of f that it makes differ from state to state or from step to step.
+        bounded: whether the energy stays bounded.
+    """
+
+    possible: bool
+    iterates: bool
+    bounded: bool
+
+
+def _judged(sizes: Sequence[float], signed: np.ndarray, h: float, evidence: Evidence) -> Defect:
+    """The verdict of the defects at FACTORS of h; ``signed`` tells one that always goes the same way: no tolerance."""
     if sizes[-1] <= ROUNDING:
         return Defect(sizes[1], h, none=True)
-    if iterates and max(sizes) <= min(TOLERATED, GROWTH * sizes[0]):
-        return Defect(sizes[1], h, none=True, tolerance=True)
+    both_ways = bool(np.min(signed) < 0 < np.max(signed))
+    if max(sizes) <= min(TOLERATED, GROWTH * sizes[0]) and evidence.possible and evidence.bounded and both_ways:
+        return Defect(sizes[1], h, none=evidence.iterates, tolerance=evidence.iterates, undecided=not evidence.iterates)
     return Defect(sizes[1], h, none=False) if sizes[1] > ROUNDING else Defect(sizes[-1], FACTORS[-1] * h, none=False)
 
 
@@ -70,14 +88,15 @@ def _largest(defects: np.ndarray) -> list[float]:
     return [float(np.max(part)) for part in np.split(defects, len(FACTORS), axis=-1)]
 
 
-def symplecticity(marcher: Marcher, h: float, *, iterates: bool = True) -> Defect:
+def symplecticity(marcher: Marcher, h: float, evidence: Evidence) -> Defect:
     """|det d(step)/dy - 1|, exact but for rounding where the step is compiled, else by differences of order ten."""
     y, sizes = _trials(marcher, h)
     if isinstance(marcher, Steps) and isinstance(marcher.engine, Traced):
         jacobians = marcher.engine.jacobian(y, sizes)
     else:
         jacobians = _differences(marcher, y, sizes)
-    return _judged(_largest(np.abs(np.linalg.det(np.moveaxis(jacobians, -1, 0)) - 1)), h, iterates=iterates)
+    defects = np.linalg.det(np.moveaxis(jacobians, -1, 0)) - 1
+    return _judged(_largest(np.abs(defects)), defects, h, evidence)
 
 
 def _differences(marcher: Marcher, y: np.ndarray, h: np.ndarray) -> np.ndarray:
@@ -98,7 +117,7 @@ def _after_one_step(marcher: Marcher, y: np.ndarray, h: np.ndarray) -> np.ndarra
     return np.stack([states[0] for states in marcher.states(y, h, [[1]] * len(h))], axis=1)
 
 
-def reversibility(marcher: Marcher, h: float, *, iterates: bool = True) -> Defect:
+def reversibility(marcher: Marcher, h: float, evidence: Evidence) -> Defect:
     """Steps forward, the momenta flipped, as many back: the distance from the start, over the components' sizes."""
     start, sizes = _trials(marcher, h)
     flip = np.ones((len(start), 1))
@@ -106,4 +125,6 @@ def reversibility(marcher: Marcher, h: float, *, iterates: bool = True) -> Defec
     y = start
     for _ in range(2):
         y = flip * np.stack([states[-1] for states in marcher.states(y, sizes, [[STEPS_BACK]] * len(sizes))], axis=1)
-    return _judged(_largest(np.abs(y - start) / np.max(np.abs(start), axis=1)[:, None]), h, iterates=iterates)
+    with np.errstate(all="ignore"):
+        gained = marcher.scene.energy(y.T) - marcher.scene.energy(start.T)
+    return _judged(_largest(np.abs(y - start) / np.max(np.abs(start), axis=1)[:, None]), gained, h, evidence)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import importlib
 import importlib.util
 import sys
@@ -37,7 +38,18 @@ def loaded(name: str) -> Callable[..., Any]:
         found = getattr(found, part)
     if not callable(found):
         raise ValueError(f"{attribute} in {home} is a {type(found).__name__}; a function is accepted.")  # noqa: TRY004 - of words
-    return found  # type: ignore[no-any-return]
+    return _named(attribute, found)
+
+
+def _named(name: str, function: Callable[..., Any]) -> Callable[..., Any]:
+    """The function under the name by which it was asked for; its own may be that of a closure or a lambda."""
+
+    def called(*arguments: Any) -> Any:
+        return function(*arguments)
+
+    functools.update_wrapper(called, function, assigned=(), updated=())  # the arguments are still those of the function
+    called.__name__ = name
+    return called
 
 
 def _module(name: str) -> ModuleType:

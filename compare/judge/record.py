@@ -13,7 +13,9 @@ if TYPE_CHECKING:
 __all__ = ["Check", "Claims"]
 
 ORDER_MARGIN = 0.2
-"""A measured order may be so much lower than the one claimed, or as much as its interval says, up to twice that."""
+"""A measured order may be so much lower than the one claimed, or as much as its interval says."""
+WIDEST = 0.3
+"""An order whose interval has a half-width beyond this is not established."""
 
 
 @dataclass(frozen=True)
@@ -40,6 +42,8 @@ class Check:
         symplecticity: the defect |det d(step)/dy - 1|; None where the problem has no such structure.
         reversibility: the distance from the start after going forward, turning round and going back.
         energy: what the energy does over a long march.
+        advance: by how many h a constant slope is advanced, 1 if that is right to rounding; None where the step is not
+            explicit.
     """
 
     name: str
@@ -52,13 +56,16 @@ class Check:
     symplecticity: Defect
     reversibility: Defect
     energy: Energy
+    advance: float | None = None
 
     @property
     def _order(self) -> Order:
-        """The lower of the orders."""
-        if self.swinging is None or self.swinging.value is None:
+        """The one of the orders whose interval reaches lower."""
+        if self.swinging is None or self.swinging.interval is None:
             return self.still
-        return self.swinging if self.still.value is None or self.swinging.value < self.still.value else self.still
+        if self.still.interval is None or self.swinging.interval[0] < self.still.interval[0]:
+            return self.swinging
+        return self.still
 
     @property
     def measured_order(self) -> float | None:
@@ -85,10 +92,21 @@ class Check:
         """Whether the order is at least the one that is claimed; None without a claim."""
         if self.claims.order is None:
             return None
+        if not self.consistent or not self._established:
+            return False
         if self._order.value is None:
             return self._order.kind == "floor"
-        margin = min(max(ORDER_MARGIN, self._order.half_width), 2 * ORDER_MARGIN)
-        return self._order.value + margin >= self.claims.order
+        return self._order.value + max(ORDER_MARGIN, self._order.half_width) >= self.claims.order
+
+    @property
+    def consistent(self) -> bool:
+        """Whether a constant slope is advanced by h, as far as that was tried."""
+        return self.advance is None or self.advance == 1
+
+    @property
+    def _established(self) -> bool:
+        """Whether the interval of the order is narrow enough to say one."""
+        return self._order.half_width <= WIDEST
 
     @property
     def claims_hold(self) -> bool:
@@ -102,6 +120,8 @@ class Check:
     def verdict(self) -> str:
         """Everything in one line."""
         parts = [self._order_words(), *self._defect_words(), self._energy_words()]
+        if not self.consistent:
+            parts.insert(1, f"not consistent: a constant slope is advanced by {self.advance:.12g} h")
         return "; ".join(parts)
 
     def _order_words(self) -> str:
@@ -115,13 +135,16 @@ class Check:
             return f"{claimed}does not converge: the error stays at {order.cells[-1].error:.0e}"
         if order.value is None:
             return f"{claimed}order not to be seen: too few step sizes between coarse and rounding"
+        if not self._established:
+            return f"{claimed}order not established: {order.value:.2f} ± {order.half_width:.2f}"
         words = f"{claimed}measured {order.value:.2f} ± {order.half_width:.2f}"
-        if claimed and self.claims.order is not None and round(order.value) > self.claims.order:
+        if self.claims.order is not None and order.value - order.half_width > self.claims.order:
             words += ", more than claimed"
         if self.swinging is not None and order is self.swinging and self.still.value is not None:
             words += f" where the time enters, {self.still.value:.2f} where it does not" * (self._times_matter)
         if order.plateau is not None:
             words += f" down to an error of {order.plateau:.0e}, where it stops falling"
+            words += ", excused as a tolerance (it may be a fault)" * self.consistent
         return words
 
     @property
@@ -141,6 +164,11 @@ class Check:
             if defect.none:
                 to = " to the tolerance of its inner iteration" if defect.tolerance else ""
                 words.append(f"{what}{to} ({measured})")
+            elif defect.undecided:
+                words.append(
+                    f"{f'claims to be {what}, ' if claimed else f'{what} or not is '}undecided: {measured}, "
+                    "the size of a tolerance or of a fault"
+                )
             else:
                 words.append(f"{f'claims to be {what}, ' if claimed else ''}not {what} ({measured})")
         return words

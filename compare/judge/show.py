@@ -65,6 +65,7 @@ def json_text(found: Check) -> str:
         },
         "measured_order": found.measured_order,
         "order_interval": None if found.order_interval is None else list(found.order_interval),
+        "advance_of_a_constant_slope": found.advance,
         "order_still": found.still.value,
         "order_where_time_enters": None if found.swinging is None else found.swinging.value,
         "symplecticity_defect": _number(found.symplecticity.size),

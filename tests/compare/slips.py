@@ -5,6 +5,7 @@ from __future__ import annotations
 from itertools import pairwise
 
 import numpy as np
+from scipy.integrate import solve_ivp
 
 CUBE_ROOT = 2 ** (1 / 3)
 W1, W0 = 1 / (2 - CUBE_ROOT), -CUBE_ROOT / (2 - CUBE_ROOT)
@@ -208,3 +209,74 @@ def weights_that_miss_one(f, y, h):
     k3 = f(y + h / 2 * k2)
     k4 = f(y + h * k3)
     return y + h / 6 * (k1 + 2 * k2 + 3 * k3 + k4)
+
+
+def shrunk_verlet(f, y, h):
+    """Slip: a millionth of the state is lost with each step."""
+    return (1 - 1e-6) * verlet(f, y, h)
+
+
+def shrunk_verlet_with_a_branch(f, y, h):
+    """The same where it cannot be compiled."""
+    return shrunk_verlet(f, y, h) if y[0] < 100 else y
+
+
+def shrunk_implicit_midpoint(f, y, h):
+    """The same after an inner iteration."""
+    return (1 - 1e-6) * implicit_midpoint(f, y, h)
+
+
+def bogacki_shampine_each_step(f, y, h):
+    """Slip: a step of an adaptive method to a tolerance, called symplectic."""
+    return adaptive(lambda _, state: f(state), y, np.array([0.0, h]), tolerance=1e-9)[-1]
+
+
+def runge_kutta_45_each_step(f, y, h):
+    """Slip: the same with SciPy's, whose absolute tolerance is its default."""
+    return solve_ivp(lambda _, state: f(state), (0, h), y, rtol=1e-7).y[:, -1]
+
+
+def wavering_verlet(f, y, h):
+    """A fault that goes both ways, in a step that does not iterate: it could be a tolerance, or not."""
+    if y[0] > 100:
+        return y
+    new = verlet(f, y, h)
+    return new + 1e-8 * np.sin(3 * new)
+
+
+def rk4_of_seven_digits(f, y, h):
+    """Slip: weights 1/6 and 1/3 of seven digits."""
+    k1 = f(y)
+    k2 = f(y + h / 2 * k1)
+    k3 = f(y + h / 2 * k2)
+    k4 = f(y + h * k3)
+    return y + h * (0.1666667 * k1 + 0.3333333 * k2 + 0.3333333 * k3 + 0.1666666 * k4)
+
+
+def rk4_a_little_long(f, y, h):
+    """Slip: increments too long by 1e-9."""
+    return y + (1 + 1e-9) * (rk4(f, y, h) - y)
+
+
+def rk4_a_little_long_with_a_branch(f, y, h):
+    """The same where it cannot be compiled."""
+    return rk4_a_little_long(f, y, h) if y[0] < 100 else y
+
+
+def rk4_over_a_grid_a_little_long(f, y0, t):
+    """Slip: the same in a whole integrator, where it cannot be told from a tolerance."""
+    return rk4_over_a_grid(lambda now, y: (1 + 1e-8) * f(now, y), y0, t)
+
+
+def separable_verlet_a_little_long(q, p, force, h):
+    """Slip: the drift is too long by 1e-8."""
+    p = p + h / 2 * force(q)
+    q = q + (1 + 1e-8) * h * p
+    return q, p + h / 2 * force(q)
+
+
+def verlet_without_the_slope_of_positions(f, y, h):
+    """Right: the drift takes the momentum itself for its slope."""
+    p = y[1] + h / 2 * f(y)[1]
+    q = y[0] + h * p
+    return np.array([q, p + h / 2 * f(np.array([q, p]))[1]])
