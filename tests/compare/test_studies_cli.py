@@ -24,8 +24,8 @@ def test_every_family_prints_its_tables(family, capsys):
     assert "rk4" in out
 
 
-@pytest.mark.parametrize("family", FAMILIES)
-def test_every_family_gives_json_and_writes_figures(family, capsys, tmp_path):
+@pytest.mark.parametrize("family", ["brachistochrone", "descent", "polar"])
+def test_forms_and_curves_give_json_and_figures(family, capsys, tmp_path):
     assert main([family, *SMALL, "--format", "json", "--plots", "--out", str(tmp_path), "--quiet"]) == 0
     found = json.loads(capsys.readouterr().out)
     assert found["problem"] == family
