@@ -2,6 +2,7 @@
 
 The tables go to stdout, whatever the other options are, so that they can be piped.
 `--out DIR` writes the same tables into a folder as well, `--plots` the figures; what was written is said on stderr.
+`published figures --out DIR` writes the figures of two sources, drawn from the reference.
 Exit codes: 0, 1 where a claim fails, 2 for a mistake of the user's or a disk that cannot be written, 130 when
 interrupted.
 """
@@ -154,10 +155,26 @@ def _report(request: Request) -> str:
 
 
 def _published(request: Request) -> str:
+    """The tables that are named, or all; where it is the figures that are named, they are written."""
     from compare.published import show
     from compare.published.entry import reproduce
 
+    target = request.options["figures"]
+    if target is not None:
+        _draw_published(request, target)
+        if not request.options["names"]:
+            return ""
     return show.render(reproduce(request.options["names"]), request.form, _width())
+
+
+def _draw_published(request: Request, target: str) -> None:
+    from compare.figures.show import files
+    from compare.output import folder
+
+    with folder(target) as results:
+        results.write(files())
+    if not request.quiet:
+        print(f"wrote {', '.join(results.names)} into {results.target}", file=sys.stderr)
 
 
 def _listing(form: str) -> str:

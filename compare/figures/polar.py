@@ -1,0 +1,41 @@
+"""The thesis in the field of a point mass: the family of brachistochrones, figure 14, and four whole paths, figure 15.
+
+Z is the lowest point over the radius of the release; all mass is taken to be in the centre.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from compare.figures.drawing import Curve, Drawing, curve
+from reference import PolarBrachistochrone
+
+__all__ = ["figure14", "figure15"]
+
+FAMILY = ("0.1", "0.2", "0.3", "0.4", "0.5", "0.6", "0.7", "0.8", "0.9")
+CONTINUED = ("0.2", "0.4", "0.7", "0.9")
+"""Four of them; the thesis names the first and the last."""
+POINTS = 193
+
+
+def figure14() -> Drawing:
+    """Nine descents to their lowest points, psi from 0 to pi."""
+    return _paths("thesis figure 14", "descents to nine lowest points Z", FAMILY, math.pi)
+
+
+def figure15() -> Drawing:
+    """Four paths through their lowest points and up again, psi from 0 to 2 pi: each sweeps twice its half angle."""
+    return _paths("thesis figure 15", "four paths from I through the lowest point to F", CONTINUED, 2 * math.pi)
+
+
+def _paths(item: str, title: str, lowest: tuple[str, ...], psi_end: float) -> Drawing:
+    curves = tuple(_path(z0, psi_end) for z0 in lowest)
+    return Drawing(item, title, "angle φ", "r/r₀", curves, polar=True)
+
+
+def _path(z0: str, psi_end: float) -> Curve:
+    """phi and z along the curve, named by where it ends."""
+    found = PolarBrachistochrone(z0).along("curve", np.linspace(0.0, psi_end, POINTS))
+    return curve(f"Z = {z0}, ends at {math.degrees(found[-1, 1]):.2f}°", found[:, 1], found[:, 0])

@@ -1,0 +1,106 @@
+"""The sources' figures: each shows the property that its source states, and is written the same every time."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from compare.__main__ import main
+from compare.figures import descents, polar
+from compare.figures.catalogue import FIGURES
+from compare.figures.show import files
+
+SPEED_AT_THE_END = math.sqrt(2 * 9.81 * 2)
+
+
+def curves(drawing):
+    return {one.name: one for one in drawing.curves}
+
+
+@pytest.fixture(scope="module")
+def written():
+    return files()
+
+
+def test_all_curves_of_figure_9_end_with_the_same_speed():
+    for one in descents.figure9().curves:
+        assert one.x[0] == pytest.approx(math.pi)
+        assert one.y[0] == one.x[-1] == 0
+        assert one.y[-1] == pytest.approx(SPEED_AT_THE_END, rel=1e-15)
+
+
+def test_the_cycloid_of_figure_9_is_the_fastest_at_the_start_and_not_later():
+    found = curves(descents.figure9())
+    speed = {name: np.interp([1.5, 3.1], one.x[::-1], one.y[::-1]) for name, one in found.items()}
+    assert max(speed, key=lambda name: speed[name][1]) == "cycloid"
+    assert max(speed, key=lambda name: speed[name][0]) == "quartic"
+
+
+def test_horizontal_speed_in_figure_10_is_linear_in_height_on_the_cycloid_only():
+    for name, one in curves(descents.figure10()).items():
+        bend = np.max(np.abs(one.y - math.sqrt(9.81) * (2 - one.x)))
+        assert bend < 1e-14 if name == "cycloid" else bend > 0.5
+
+
+@pytest.mark.parametrize("figure", [descents.figure11, descents.figure12])
+def test_all_bodies_of_the_tautochrone_arrive_at_the_same_time(figure):
+    *bodies, meeting = figure().curves
+    assert len(bodies) == 3
+    assert len(set(meeting.x)) == 1
+    assert meeting.x[0] == pytest.approx(math.pi / math.sqrt(9.81))
+    for one in bodies:
+        assert abs(np.interp(meeting.x[0], one.x, one.y)) < 1e-3 < one.y[0]
+        assert (one.x[0], one.x[-1]) == (0, 2.1)
+    assert len({one.y[0] for one in bodies}) == 3
+
+
+def test_figure_14_goes_from_the_release_to_nine_lowest_points():
+    found = polar.figure14().curves
+    assert [one.y[-1] for one in found] == [k / 10 for k in range(1, 10)]
+    for one in found:
+        assert (one.x[0], one.y[0]) == (0, 1)
+        assert np.all(np.diff(one.y) < 0)
+        assert np.all(np.diff(one.x) > 0)
+
+
+def test_figure_15_sweeps_twice_the_half_angle_and_is_its_own_mirror():
+    family = {one.name.split(",")[0]: one for one in polar.figure14().curves}
+    whole = {one.name.split(",")[0]: one for one in polar.figure15().curves}
+    assert len(whole) == 4
+    for name, one in whole.items():
+        assert one.x[-1] == pytest.approx(2 * family[name].x[-1], rel=1e-14)
+        assert one.y == pytest.approx(one.y[::-1], rel=1e-13)
+        assert one.x == pytest.approx(one.x[-1] - one.x[::-1], abs=1e-13)
+    assert math.degrees(whole["Z = 0.2"].x[-1]) == pytest.approx(100.90, abs=0.005)
+
+
+def test_every_figure_is_written_as_png_and_svg(written):
+    drawings = [compute() for compute in FIGURES]
+    assert len({one.name for one in drawings}) == len(drawings)
+    assert set(written) == {f"{one.name}.{suffix}" for one in drawings for suffix in ("png", "svg")}
+    for name, content in written.items():
+        assert content.startswith(b"\x89PNG" if name.endswith("png") else b"<?xml")
+
+
+def test_every_axis_has_a_quantity_with_units():
+    for drawing in (compute() for compute in FIGURES):
+        if not drawing.polar:
+            assert all(label.endswith("]") for label in (drawing.x_label, drawing.y_label)), drawing.item
+
+
+def test_the_command_line_writes_the_figures_the_same_bytes_every_time(tmp_path, capsys, written):
+    assert main(["published", "figures", "--out", str(tmp_path / "drawn")]) == 0
+    out, err = capsys.readouterr()
+    assert out == ""
+    assert err.startswith("wrote thesis-figure-")
+    assert err.endswith(f"into {tmp_path / 'drawn'}\n")
+    assert {path.name: path.read_bytes() for path in (tmp_path / "drawn").iterdir()} == written
+
+
+def test_a_folder_without_figures_is_a_mistake(capsys):
+    assert main(["published", "table9", "--out", "somewhere"]) == 2
+    assert capsys.readouterr().err == (
+        "error: --out is the folder of the figures; it is accepted with the name 'figures'.\n"
+    )
