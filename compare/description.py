@@ -89,9 +89,11 @@ def _orders(method: Method) -> Iterator[tuple[str, Any]]:
 
 def _evaluations(method: Method) -> Iterator[tuple[str, int]]:
     (once, start), (twice, _) = method.evaluations(1), method.evaluations(2)
-    yield "evaluations per step", 2 * once - twice
     if twice > once:
-        yield "evaluations per iteration", twice - once
+        yield "evaluations with one iteration", once
+        yield "evaluations per further iteration", twice - once
+    else:
+        yield "evaluations per step", once
     if start:
         yield "evaluations at the start", start
 

@@ -57,13 +57,14 @@ DEFAULT: tuple[Method, ...] = (
 
 
 def find(name: str) -> Method:
-    """Return the method of this name or alias.
+    """Return the method of this name or alias, however its letters and hyphens are written.
 
     Raises:
         ValueError: there is none; the sentence names the nearest.
     """
+    plain = str(name).strip().lower().replace("-", "_").replace(" ", "_")
     for method in METHODS:
-        if name in {method.name, *method.aliases}:
+        if plain in {method.name, *method.aliases}:
             return method
     names, aliases = [method.name for method in METHODS], [alias for method in METHODS for alias in method.aliases]
     raise ValueError(unknown("method", str(name), names, aliases))

@@ -166,11 +166,11 @@ class _Bench:
         )
 
     def _digits(self, error: arb, truth: arb) -> float:
-        """-log10 |error/truth|: infinite where the truth is met as far as it is known."""
+        """-log10 |error/truth|, not below 0: infinite where the truth is met as far as it is known."""
         size = abs(error)
         if size <= self._resolution * abs(truth) or error.is_zero():
             return math.inf
-        return -_log10(size / abs(truth)) if not truth.is_zero() else 0.0
+        return max(0.0, -_log10(size / abs(truth))) if not truth.is_zero() else 0.0
 
     def _orbital(self, t: Fraction, y: Sequence[arb]) -> tuple[float, float]:
         """(phase error in rad, amplitude error in rad)."""
