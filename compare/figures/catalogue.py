@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from compare.figures import descents, polar
+from compare.figures import curve, descents, pendulum, polar
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -14,6 +14,16 @@ if TYPE_CHECKING:
 __all__ = ["FIGURES"]
 
 FIGURES: tuple[Callable[[], Drawing], ...] = (
+    pendulum.figure2,
+    pendulum.figure3,
+    pendulum.figure4,
+    pendulum.figure5,
+    pendulum.figure6,
+    pendulum.figure7,
+    pendulum.figure10,
+    pendulum.figure11,
+    curve.figure6,
+    curve.figure7,
     descents.figure9,
     descents.figure10,
     descents.figure11,

@@ -14,6 +14,7 @@ from reference import Descent, Tautochrone
 __all__ = ["figure9", "figure10", "figure11", "figure12"]
 
 GRAVITY = "9.81"
+FIELD = f"g = {GRAVITY} m/s²."
 RACE = ("line", "quartic", "cycloid")
 """The curves that the thesis names."""
 STARTS = ("3.13", "2.0", "1.5")
@@ -44,7 +45,7 @@ def _race(item: str, title: str, x_label: str, y_label: str, across: str, upward
         columns = [quantity.name for quantity in problem.row("passage").quantities]
         found = dict(zip(columns, problem.along("passage", FRACTIONS).T, strict=True))
         curves.append(curve(name, found[f"passage_{across}"], np.abs(found[f"passage_{upward}"])))
-    return Drawing(item, title, x_label, y_label, tuple(curves))
+    return Drawing(item, title, x_label, y_label, tuple(curves), note=f"Released at (π, 2) m, down to (0, 0); {FIELD}")
 
 
 def figure11() -> Drawing:
@@ -66,4 +67,4 @@ def _swings(item: str, title: str, label: str, component: int) -> Drawing:
     ]
     arrivals = [float(swing.descent_time()) for swing in swings]
     meeting = curve("at the bottom", arrivals, [0.0] * len(arrivals), points=True)
-    return Drawing(item, title, "time t [s]", label, (*curves, meeting))
+    return Drawing(item, title, "time t [s]", label, (*curves, meeting), note=f"R = 1 m, {FIELD}")

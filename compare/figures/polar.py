@@ -18,6 +18,7 @@ FAMILY = ("0.1", "0.2", "0.3", "0.4", "0.5", "0.6", "0.7", "0.8", "0.9")
 CONTINUED = ("0.2", "0.4", "0.7", "0.9")
 """Four of them; the thesis names the first and the last."""
 POINTS = 193
+NOTE = "Released at r = r₀, φ = 0; Z = r_min/r₀; all mass is taken to be in the centre, r = 0."
 
 
 def figure14() -> Drawing:
@@ -32,7 +33,7 @@ def figure15() -> Drawing:
 
 def _paths(item: str, title: str, lowest: tuple[str, ...], psi_end: float) -> Drawing:
     curves = tuple(_path(z0, psi_end) for z0 in lowest)
-    return Drawing(item, title, "angle φ", "r/r₀", curves, polar=True)
+    return Drawing(item, title, "angle φ", "r/r₀", curves, polar=True, note=NOTE)
 
 
 def _path(z0: str, psi_end: float) -> Curve:

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from compare.__main__ import main
-from compare.figures import descents, polar
+from compare.figures import curve, descents, pendulum, polar
 from compare.figures.catalogue import FIGURES
 from compare.figures.show import files
 
@@ -17,6 +17,11 @@ SPEED_AT_THE_END = math.sqrt(2 * 9.81 * 2)
 
 def curves(drawing):
     return {one.name: one for one in drawing.curves}
+
+
+@pytest.fixture(scope="module")
+def drawings():
+    return [compute() for compute in FIGURES]
 
 
 @pytest.fixture(scope="module")
@@ -76,16 +81,67 @@ def test_figure_15_sweeps_twice_the_half_angle_and_is_its_own_mirror():
     assert math.degrees(whole["Z = 0.2"].x[-1]) == pytest.approx(100.90, abs=0.005)
 
 
-def test_every_figure_is_written_as_png_and_svg(written):
-    drawings = [compute() for compute in FIGURES]
+def test_the_points_of_figure_6_lie_on_the_cycloid_until_its_slope_is_infinite():
+    exact, points = curve.figure6().curves
+    away = np.abs(np.interp(-points.y, -exact.y, exact.x) - points.x)
+    assert np.max(away[:-1]) < 1e-3
+    assert away[-1] > 0.03
+    assert points.y[-1] == pytest.approx(-1.9999, abs=1e-12)
+
+
+def test_the_error_of_figure_7_falls_far_more_slowly_than_of_order_4():
+    without_rounding, listed = curve.figure7().curves
+    assert list(listed.x) == [100, 200, 300, 400, 500]
+    assert listed.y == pytest.approx(without_rounding.y, rel=1e-9)
+    assert 1.2 < math.log(listed.y[0] / listed.y[-1]) / math.log(5) < 1.4
+
+
+def test_the_report_s_figures_2_to_4_show_a_closed_orbit_that_keeps_its_energy():
+    exact, found = pendulum.figure2().curves
+    assert np.max(np.abs(np.interp(exact.x, found.x, found.y) - exact.y)) < 2e-4
+    orbit = pendulum.figure3().curves[1]
+    assert np.max(np.abs(orbit.y**2 / 2 + 9.81 * (math.cos(1) - np.cos(orbit.x)))) < 1e-5
+    change = pendulum.figure4().curves[1]
+    assert 1e-8 < np.max(np.abs(change.y)) < 1e-5
+    assert (found.x[0], found.x[-1]) == (0, pytest.approx(10))
+
+
+def test_the_report_s_figures_5_to_7_show_that_euler_s_method_gains_energy_and_loses_the_period():
+    assert np.min(pendulum.figure5().curves[1].y) < -2 * math.pi
+    exact, orbit = pendulum.figure6().curves
+    assert np.max(np.abs(orbit.y)) > 2 * np.max(np.abs(exact.y))
+    level, energy = pendulum.figure7().curves
+    assert energy.y[0] == pytest.approx(level.y[0])
+    assert np.all(energy.y[1:] > level.y[0])
+    assert energy.y[-1] > level.y[0] + 40
+
+
+def test_the_report_s_figure_10_parts_euler_and_the_linear_period_from_the_exact_one():
+    found = curves(pendulum.figure10())
+    exact = found.pop("exact")
+    away = {name: np.max(np.abs(np.interp(one.x, exact.x, exact.y) - one.y)) for name, one in found.items()}
+    assert {name for name, size in away.items() if size > 0.05} == {"Euler", "linear"}
+    assert len(found) == 6
+    assert len(set(found["linear"].y)) == 1
+
+
+def test_the_report_s_figure_11_shows_the_linear_solution_leave_and_the_approximation_stay():
+    found = curves(pendulum.figure11())
+    exact = found.pop("exact")
+    away = {name: np.max(np.abs(one.y - exact.y)) for name, one in found.items()}
+    assert away["linear equation"] > 1
+    assert away["approximation (4.14)"] < 0.06
+
+
+def test_every_figure_is_written_as_png_and_svg(drawings, written):
     assert len({one.name for one in drawings}) == len(drawings)
     assert set(written) == {f"{one.name}.{suffix}" for one in drawings for suffix in ("png", "svg")}
     for name, content in written.items():
         assert content.startswith(b"\x89PNG" if name.endswith("png") else b"<?xml")
 
 
-def test_every_axis_has_a_quantity_with_units():
-    for drawing in (compute() for compute in FIGURES):
+def test_every_axis_has_a_quantity_with_units(drawings):
+    for drawing in drawings:
         if not drawing.polar:
             assert all(label.endswith("]") for label in (drawing.x_label, drawing.y_label)), drawing.item
 
@@ -94,7 +150,7 @@ def test_the_command_line_writes_the_figures_the_same_bytes_every_time(tmp_path,
     assert main(["published", "figures", "--out", str(tmp_path / "drawn")]) == 0
     out, err = capsys.readouterr()
     assert out == ""
-    assert err.startswith("wrote thesis-figure-")
+    assert err.startswith("wrote report-figure-2.png, report-figure-2.svg, ")
     assert err.endswith(f"into {tmp_path / 'drawn'}\n")
     assert {path.name: path.read_bytes() for path in (tmp_path / "drawn").iterdir()} == written
 
