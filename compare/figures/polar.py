@@ -23,17 +23,19 @@ NOTE = "Released at r = r₀, φ = 0; Z = r_min/r₀; all mass is taken to be in
 
 def figure14() -> Drawing:
     """Nine descents to their lowest points, psi from 0 to pi."""
-    return _paths("thesis figure 14", "descents to nine lowest points Z", FAMILY, math.pi)
+    return _drawing("thesis figure 14", "descents to nine lowest points Z", [_path(z0, math.pi) for z0 in FAMILY])
 
 
 def figure15() -> Drawing:
     """Four paths through their lowest points and up again, psi from 0 to 2 pi: each sweeps twice its half angle."""
-    return _paths("thesis figure 15", "four paths from I through the lowest point to F", CONTINUED, 2 * math.pi)
+    paths = [_path(z0, 2 * math.pi) for z0 in CONTINUED]
+    angles = [float(PolarBrachistochrone(z0).certified("half_angle")) for z0 in CONTINUED]
+    lowest = curve("lowest points r_min", angles, [float(z0) for z0 in CONTINUED], points=True)
+    return _drawing("thesis figure 15", "four paths from I through r_min to F", [*paths, lowest])
 
 
-def _paths(item: str, title: str, lowest: tuple[str, ...], psi_end: float) -> Drawing:
-    curves = tuple(_path(z0, psi_end) for z0 in lowest)
-    return Drawing(item, title, "angle φ", "r/r₀", curves, polar=True, note=NOTE)
+def _drawing(item: str, title: str, curves: list[Curve]) -> Drawing:
+    return Drawing(item, title, "angle φ", "r/r₀", tuple(curves), polar=True, note=NOTE)
 
 
 def _path(z0: str, psi_end: float) -> Curve:

@@ -8,8 +8,9 @@ import numpy as np
 import pytest
 
 from compare.__main__ import main
-from compare.figures import curve, descents, pendulum, polar
+from compare.figures import curve, descents, pendulum, polar, snapshots
 from compare.figures.catalogue import FIGURES
+from compare.figures.drawing import Drawing
 from compare.figures.show import files
 
 SPEED_AT_THE_END = math.sqrt(2 * 9.81 * 2)
@@ -72,12 +73,14 @@ def test_figure_14_goes_from_the_release_to_nine_lowest_points():
 
 def test_figure_15_sweeps_twice_the_half_angle_and_is_its_own_mirror():
     family = {one.name.split(",")[0]: one for one in polar.figure14().curves}
-    whole = {one.name.split(",")[0]: one for one in polar.figure15().curves}
+    *paths, lowest = polar.figure15().curves
+    whole = {one.name.split(",")[0]: one for one in paths}
     assert len(whole) == 4
     for name, one in whole.items():
         assert one.x[-1] == pytest.approx(2 * family[name].x[-1], rel=1e-14)
         assert one.y == pytest.approx(one.y[::-1], rel=1e-13)
         assert one.x == pytest.approx(one.x[-1] - one.x[::-1], abs=1e-13)
+    assert list(lowest.y) == [min(one.y) for one in whole.values()]
     assert math.degrees(whole["Z = 0.2"].x[-1]) == pytest.approx(100.90, abs=0.005)
 
 
@@ -133,6 +136,22 @@ def test_the_report_s_figure_11_shows_the_linear_solution_leave_and_the_approxim
     assert away["approximation (4.14)"] < 0.06
 
 
+def test_the_cycloid_alone_has_arrived_in_the_last_panel_of_figure_8():
+    *_, line, quartic, cycloid = (one.x for one in snapshots.figure8().bodies)
+    assert abs(cycloid[-1]) < 1e-12
+    assert line[-1] > quartic[-1] > 0.05
+    assert line[0] == quartic[0] == cycloid[0] == pytest.approx(math.pi)
+
+
+def test_all_four_bodies_of_figure_13_are_at_the_bottom_in_the_last_panel_and_not_before():
+    found = snapshots.figure13().bodies
+    assert len(found) == 4
+    for one in found:
+        assert one.y[-1] < 1e-12
+        assert one.y[-2] > 0.05
+        assert np.all(np.diff(one.y) < 0)
+
+
 def test_every_figure_is_written_as_png_and_svg(drawings, written):
     assert len({one.name for one in drawings}) == len(drawings)
     assert set(written) == {f"{one.name}.{suffix}" for one in drawings for suffix in ("png", "svg")}
@@ -142,7 +161,7 @@ def test_every_figure_is_written_as_png_and_svg(drawings, written):
 
 def test_every_axis_has_a_quantity_with_units(drawings):
     for drawing in drawings:
-        if not drawing.polar:
+        if isinstance(drawing, Drawing) and not drawing.polar:
             assert all(label.endswith("]") for label in (drawing.x_label, drawing.y_label)), drawing.item
 
 
