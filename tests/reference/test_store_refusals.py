@@ -277,7 +277,7 @@ def test_what_is_not_of_the_schema_is_refused_by_name(copy, tampering):
 def test_another_schema_version_is_refused_with_both_versions_named(copy):
     with h5py.File(copy, "r+", libver=("v110", "v110")) as file:
         file.attrs.create("schema_version", b"99", dtype=h5py.string_dtype("utf-8", 2))
-    refused(copy, "'99'", "'1'")
+    refused(copy, "'99'", "'2'")
 
 
 @pytest.mark.parametrize(
