@@ -208,7 +208,7 @@ def _in_order_of_work(
 ) -> dict[str, Found]:
     """Each method's records, the longest marches begun first.
 
-    This process takes from the end of the queue what the executor has not begun.  Processes, not threads: a call of a
+    This process too takes the longest that the executor has not begun.  Processes, not threads: a call of a
     compiled block is so short that threads would spend their time handing over the interpreter's lock.
     """
     task = partial(score, fmt=asked[0], wanted=asked[1])
@@ -225,7 +225,7 @@ def _in_order_of_work(
         if progress is not None:
             progress(method.name)
 
-    for method in reversed(by_work):
+    for method in by_work:
         if not queued or queued[method.name].cancel():
             keep(method, task(method, courses[method.name]))
     for method in by_work:
