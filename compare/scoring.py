@@ -17,6 +17,7 @@ from compare.extras import GROWTH_SAMPLES, Found, score
 from compare.fit import fit_order
 from compare.methods import DEFAULT, find
 from compare.precision import precision as find_precision
+from compare.sharing import shared
 from compare.wanted import DEFAULT_SCORES, EXTRAS, chosen_scores
 from reference.exact import as_number, exact
 from reference.problem import Problem
@@ -199,6 +200,10 @@ def _step_counts(n: Sequence[int]) -> list[int]:
     return sorted({int(count) for count in n})
 
 
+def _score(task: tuple[Method, list[Course]], fmt: Precision, wanted: Sequence[str]) -> Found:
+    return score(*task, fmt, wanted)
+
+
 def _in_order_of_work(
     methods: Sequence[Method],
     courses: dict[str, list[Course]],
@@ -208,27 +213,16 @@ def _in_order_of_work(
 ) -> dict[str, Found]:
     """Each method's records, the longest marches begun first.
 
-    This process too takes the longest that the executor has not begun.  Processes, not threads: a call of a
-    compiled block is so short that threads would spend their time handing over the interpreter's lock.
+    Processes, not threads: a call of a compiled block is so short that threads would spend their time handing over the
+    interpreter's lock.
     """
-    task = partial(score, fmt=asked[0], wanted=asked[1])
-    by_work = sorted(methods, key=lambda method: (method.family != "implicit", -method.evaluations(1)[0]))
-    queued = (
-        {method.name: executor.submit(task, method, courses[method.name]) for method in by_work}
-        if executor is not None
-        else {}
+    by_work = sorted(
+        methods, key=lambda method: (method.family != "implicit", -method.evaluations(1)[0], -method.order)
     )
+    tasks = [(method, courses[method.name]) for method in by_work]
     scores: dict[str, Found] = {}
-
-    def keep(method: Method, result: Found) -> None:
-        scores[method.name] = result
+    for (method, _), found in shared(tasks, partial(_score, fmt=asked[0], wanted=asked[1]), executor):
+        scores[method.name] = found
         if progress is not None:
             progress(method.name)
-
-    for method in by_work:
-        if not queued or queued[method.name].cancel():
-            keep(method, task(method, courses[method.name]))
-    for method in by_work:
-        if method.name not in scores:
-            keep(method, queued[method.name].result())
     return scores
