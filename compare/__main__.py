@@ -120,17 +120,16 @@ def _score(request: Request) -> None:
 
 def _study(request: Request, progress: Callable[[str], None] | None) -> Any:
     """The study of a family, on a process pool where that is worth it."""
-    from compare.scoring import DEFAULT_N
     from reference.executors import processes
 
-    family: Any = import_module(f"compare.studies.{request.command}")
-    others = (os.cpu_count() or 1) - 1
-    if not others or sum(request.options.get("n", DEFAULT_N)) < WORTH_PROCESSES:
-        return family.study(**request.options, traces=request.plots, progress=progress)
+    home, others = f"compare.studies.{request.command}", (os.cpu_count() or 1) - 1
+    options = {**request.options, "traces": request.plots, "progress": progress}
+    if not others or sum(options.get("n", [WORTH_PROCESSES])) < WORTH_PROCESSES:
+        return import_module(home).study(**options)
     with processes(others) as executor:
         for _ in range(others):
-            executor.submit(import_module, family.__name__)  # they import while the truth is computed here
-        return family.study(**request.options, traces=request.plots, progress=progress, executor=executor)
+            executor.submit(import_module, home)  # they import while this process does, and computes the truth
+        return import_module(home).study(**options, executor=executor)
 
 
 def _solver_study(request: Request, progress: Callable[[str], None] | None) -> SolverStudy:

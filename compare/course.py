@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
 from typing import TYPE_CHECKING, Any
@@ -21,7 +22,7 @@ if TYPE_CHECKING:
     from compare.records import Case
     from reference.problem import Problem
 
-__all__ = ["SAMPLES", "Course", "proven"]
+__all__ = ["SAMPLES", "Course"]
 
 SAMPLES = 128
 
@@ -60,19 +61,21 @@ class Course:
         """The steps after which the state is compared."""
         return sample_steps(self.n, self.samples)
 
-    @cached_property
-    def times(self) -> list[Fraction]:
-        """n h, exactly."""
-        return [step * self.h for step in self.steps]
+    @property
+    def grid(self) -> tuple[Fraction, tuple[int, ...]]:
+        """The times as multiples of an interval, which numbers of steps that are powers of two share."""
+        common = math.gcd(*self.steps)
+        return common * self.h, tuple(step // common for step in self.steps)
 
-    def __getstate__(self) -> dict[str, Any]:
-        """Without the times, which take longer to send to another process than to compute again there."""
-        return {name: value for name, value in self.__dict__.items() if name != "times"}
+    @property
+    def times(self) -> tuple[Fraction, ...]:
+        """n h, exactly."""
+        return multiples(*self.grid)
 
     @cached_property
     def truth(self) -> np.ndarray:
         """The proven state at the times: float64 limbs [samples, state, limbs], enough for the format."""
-        return proven(self.problem, tuple(self.times), max(2, self.fmt.bits // 53 + 2))
+        return _proven_on(self.problem, *self.grid, max(2, self.fmt.bits // 53 + 2))
 
     @cached_property
     def neighbour(self) -> Course:
@@ -176,6 +179,12 @@ class Course:
 
 
 @lru_cache(maxsize=64)
-def proven(problem: Problem, times: tuple[Fraction, ...], limbs: int) -> np.ndarray:
-    """``problem.state``, kept: numbers of steps that are powers of two share their sample times."""
-    return problem.state(times, limbs=limbs)
+def multiples(unit: Fraction, counts: tuple[int, ...]) -> tuple[Fraction, ...]:
+    """Each count times the unit, kept."""
+    return tuple(count * unit for count in counts)
+
+
+@lru_cache(maxsize=64)
+def _proven_on(problem: Problem, unit: Fraction, counts: tuple[int, ...], limbs: int) -> np.ndarray:
+    """``problem.state`` at multiples of a time, kept: the numbers of steps of a study come back to the same."""
+    return problem.state(multiples(unit, counts), limbs=limbs)

@@ -42,9 +42,7 @@ def floors_of(method: Method, courses: Sequence[Course], errors: Sequence[np.nda
         places.setdefault(course.problem, []).append(i)
     floors = [False] * len(courses)
     lanes = [course.lane for course in courses]
-    ahead = 1
-    while waiting := [i for members in places.values() for i in _coarsest(members, doubtful, ahead)]:
-        ahead = 2
+    while waiting := [i for members in places.values() for i in _coarsest(members, doubtful)]:
         neighbours = [courses[i].neighbour for i in waiting]
         marches = march(method, [neighbour.lane for neighbour in neighbours], fmt, among=lanes)
         for i, neighbour, result in zip(waiting, neighbours, marches, strict=True):
@@ -77,6 +75,6 @@ def _rounding(course: Course) -> float:
     return course.fmt.epsilon * float(np.max(course.place(course.truth[:, :, 0])))
 
 
-def _coarsest(members: Sequence[int], doubtful: Sequence[bool], count: int) -> list[int]:
-    """The first doubtful courses of a problem."""
-    return [i for i in members if doubtful[i]][:count]
+def _coarsest(members: Sequence[int], doubtful: Sequence[bool]) -> list[int]:
+    """The first doubtful courses of a problem: two at once, since lanes of one march take little longer together."""
+    return [i for i in members if doubtful[i]][:2]

@@ -178,6 +178,7 @@ class _Group:
         spare = self.fmt.zeros((self.block.out_rows(rows), lanes.shape[1]))
         out = self.fmt.zeros(spare.shape)
         events = self._events()
+        closing = set((-(-self.ends // self.steps) * self.steps).tolist())
         taken = 0
         began = time.perf_counter()
         while lanes.shape[1]:
@@ -189,6 +190,8 @@ class _Group:
             lanes, out, spare = out[-rows:], spare, out
             if self.every or taken in events:
                 self._keep(spare.reshape(-1, rows, lanes.shape[1]), taken, events.get(taken))
+            if taken in closing:
+                self._close(spare[-2:], taken)
                 width = self._width(taken)
                 if width < lanes.shape[1]:
                     shrunk = (np.ascontiguousarray(array[:, :width]) for array in (lanes, parameters, out, spare))
@@ -233,19 +236,22 @@ class _Group:
         return dict(zip(ends.tolist(), rows, strict=True))
 
     def _keep(self, outputs: np.ndarray, taken: int, events: np.ndarray | None) -> None:
-        """Keep the wanted states of a block that ended at step ``taken``, and the largest drift and change."""
+        """Keep the wanted states of a block that ended at step ``taken``, and with every state the largest maxima."""
         if events is not None:
             lane, sample, index = events
             self.states[lane, sample] = outputs[index, : self.dimension, lane]
-        count = min(len(self.lanes), outputs.shape[2])
         if self.every:
+            count = min(len(self.lanes), outputs.shape[2])
             values = outputs[:, -2:, :count].astype(np.float64)
             step = np.arange(taken - self.steps, taken)[:, None, None]
             largest = np.where(step < self.ends[:count], values, 0.0).max(axis=0)
             self.maxima[:count] = np.maximum(self.maxima[:count], largest.T)
-        else:
-            ended = np.flatnonzero(self.ends[:count] == taken)
-            self.maxima[ended] = outputs[-1, -2:, ended].astype(np.float64)
+
+    def _close(self, maxima: np.ndarray, taken: int) -> None:
+        """Keep the largest drift and change of the lanes that end here, where blocks carry them along."""
+        if not self.every:
+            ended = np.flatnonzero(self.ends == taken)
+            self.maxima[ended] = maxima[:, ended].T.astype(np.float64)
 
     def _width(self, taken: int) -> int:
         """Lanes still marching, padded to whole batches."""

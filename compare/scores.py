@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from compare.aspects import conserves, period_of
-from compare.course import SAMPLES, Course, proven
+from compare.course import SAMPLES, Course
 from compare.fit import fit_order, slope_with_interval, student_95
 from compare.floors import floors_of
 from compare.march import march
@@ -31,7 +31,6 @@ __all__ = [
     "Course",
     "drifts",
     "fit_order",
-    "proven",
     "score_courses",
     "score_errors",
     "score_method",

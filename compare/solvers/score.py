@@ -5,12 +5,12 @@ from __future__ import annotations
 import math
 import time
 from fractions import Fraction
+from functools import lru_cache
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from compare.aspects import aspect_of
-from compare.course import proven
 from compare.precision import precision
 from compare.solvers.foreign import Heard, heard
 from compare.solvers.records import EventCell, SolverCell
@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
     from compare.solvers.solver import Answer, Question, Solver
+    from reference.problem import Problem
 
 __all__ = ["score_events", "score_solver"]
 
@@ -65,9 +66,15 @@ def _cell(solver: Solver, question: Question, found: Heard[Answer], seconds: flo
 
 def _errors(question: Question, states: np.ndarray) -> np.ndarray:
     """|states - truth| at exactly the times."""
-    truth = proven(question.problem, tuple(Fraction(float(t)) for t in question.times), LIMBS)
+    truth = _truth(question.problem, tuple(question.times.tolist()))
     errors: np.ndarray = np.abs(precision("float64").difference(states, truth))
     return errors
+
+
+@lru_cache(maxsize=64)
+def _truth(problem: Problem, times: tuple[float, ...]) -> np.ndarray:
+    """The proven state, kept: every solver is asked at the same times."""
+    return problem.state(list(map(Fraction, times)), limbs=LIMBS)
 
 
 def _asked(solver: Solver, question: Question) -> tuple[Heard[Answer], float]:

@@ -39,14 +39,14 @@ HERE = Path(__file__).parent
 
 def ours(out: Path) -> None:
     """The job by this package."""
-    from compare.scoring import score_all
-    from reference import Pendulum
     from reference.executors import processes
 
-    problems = [Pendulum(amplitude) for amplitude in AMPLITUDES]
     with processes(max((os.cpu_count() or 1) - 1, 1)) as executor:
         executor.submit(import_module, "compare.scoring")  # as the command line does
-        scored = score_all(problems, METHODS, COUNTS, executor=executor)
+        from compare.scoring import score_all
+        from reference import Pendulum
+
+        scored = score_all([Pendulum(amplitude) for amplitude in AMPLITUDES], METHODS, COUNTS, executor=executor)
     pairs = [
         (cell.max_error, drift.max_drift_above_rest) for cell, drift in zip(scored.cells, scored.drifts, strict=True)
     ]
