@@ -5,14 +5,15 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from compare.aspects import Aspect, aspect_of, conserves
-from compare.bound import FormatArithmetic
+from compare.bound import BoundSystem, FormatArithmetic
 from compare.cases import case_of
 from compare.lane import Lane, StartInvariant, sample_steps
+from compare.precision import precision
 from reference.arithmetic import NUMPY
 
 if TYPE_CHECKING:
@@ -108,19 +109,40 @@ class Course:
         largest: np.ndarray = np.max((np.abs(errors) / self.units)[:, list(self.aspect.places)], axis=1)
         return largest
 
-    @property
-    def roundings(self) -> float:
-        """How far N roundings of the place can lead, carried along as the exact motion carries them.
+    @cached_property
+    def state_roundings(self) -> np.ndarray:
+        """How far N roundings of eight units can lead each component, carried along as the exact motion carries them.
 
-        The exact motion's growth is that of the distance between this course and its neighbour; along a curve besides
-        it is what a rounding of the coordinate makes of the place.
+        The exact motion's growth is that of the distance between this course and its neighbour.
         """
-        places = list(self.aspect.places)
         gap = np.max(np.abs(self.truth[:, :, 0] - self.neighbour.truth[:, :, 0]), axis=0) / self.sizes
-        growth = 1 + float(np.max(gap[places])) / (self._apart or 1.0)
-        if self.aspect.along is not None:
-            growth += float(np.max(self._slopes)) * self.sizes[self.aspect.along]
-        return 8 * self.n * self.fmt.epsilon * growth * float(np.max((self.sizes / self.units)[places]))
+        led: np.ndarray = 8 * self.n * self.fmt.epsilon * (1 + gap / (self._apart or 1.0)) * self.sizes
+        return led
+
+    @cached_property
+    def roundings(self) -> float:
+        """The same of the place; along a curve also what a rounding of the coordinate makes of it."""
+        aspect = self.aspect
+        counted = float(np.max((self.state_roundings / self.units)[list(aspect.places)]))
+        if aspect.along is not None:
+            along = self.sizes[aspect.along] * float(np.max((self.sizes / self.units)[list(aspect.places)]))
+            counted += 8 * self.n * self.fmt.epsilon * float(np.max(self._slopes)) * along
+        return counted
+
+    @cached_property
+    def drift_roundings(self) -> float:
+        """The same of the change of the conserved quantity, relative to its start; NaN where there is none.
+
+        A rounding of a component y changes E by |y dE/dy| of it, which the exact motion neither lessens nor lets grow.
+        """
+        if not conserves(self.problem) or not self.level:
+            return math.nan
+        fmt = precision("float64")
+        parameters = {name: fmt.number(value) for name, value in self.problem.parameters.items()}
+        system = BoundSystem(self.problem, FormatArithmetic(fmt), parameters, fmt, self.level)
+        state = tuple(self.truth[:, :, 0].T)
+        changes = sum(np.abs(y * slope) for y, slope in zip(state, system.gradient(state), strict=True))
+        return 8 * self.n * self.fmt.epsilon * float(np.max(changes)) / abs(self.level)
 
     @cached_property
     def _slopes(self) -> np.ndarray:

@@ -49,9 +49,15 @@ def defects(runs: Sequence[Run]) -> list[Defect]:
             found[i] = defect
     ways_back = _ways_back(runs)
     return [
-        Defect(run.method.name, run.course.n, float(run.course.h), run.course.case, area, way_back)
+        Defect(run.method.name, run.course.n, float(run.course.h), run.course.case, area, way_back, *_roundings(run))
         for run, area, way_back in zip(runs, found, ways_back, strict=True)
     ]
+
+
+def _roundings(run: Run) -> tuple[float, float]:
+    """Bounds on rounding's part of each defect: one for an evaluation and their sum; there and back of the state."""
+    evaluations = run.march.evaluations / run.course.n
+    return run.course.fmt.epsilon * (1 + evaluations), 2 * run.phase_rounding
 
 
 def _areas(runs: Sequence[Run]) -> list[float]:

@@ -33,9 +33,9 @@ SCORERS: dict[str, Callable[[Sequence[Run]], list[Any]]] = {
 
 def score(method: Method, courses: Sequence[Course], fmt: Precision, wanted: Sequence[str]) -> Found:
     """March a method over the courses and score it as wanted."""
-    cells, marches = score_courses(method, courses, fmt)
-    runs = [Run(method, *found) for found in zip(courses, marches, cells, strict=True)]
-    found: Found = {"error_vs_n": cells, "energy_drift": drifts(method, courses, marches)}
+    cells, marches, roundings = score_courses(method, courses, fmt)
+    runs = [Run(method, *found) for found in zip(courses, marches, cells, roundings, strict=True)]
+    found: Found = {"error_vs_n": cells, "energy_drift": drifts(method, courses, marches, roundings)}
     for name, scorer in SCORERS.items():
         if name in wanted:
             found[name] = scorer(runs)

@@ -20,6 +20,8 @@ __all__ = ["fit_order", "slope_with_interval", "student_95"]
 
 SLOPE_TOLERANCE = 0.05
 MIN_CELLS = 3
+NO_POWER = 0.003
+"""By about so much of itself an error of the asymptotic range departs from a power of h."""
 
 
 def fit_order(method: Method, cells: Sequence[Cell]) -> FittedOrder:
@@ -36,9 +38,12 @@ def fit_order(method: Method, cells: Sequence[Cell]) -> FittedOrder:
     first, last = _longest_run(slopes)
     chosen = usable[first:last] if last - first >= MIN_CELLS else []
     fitted = spread = None
+    rounding = spread_rounding = 0.0
     if chosen:
-        fitted, _ = slope_with_interval(np.array(x[first:last]), np.array(y[first:last]))
-        spread = max(abs(slope - fitted) for slope in slopes[first : last - 1])
+        fitted, rounding = _weighted_slope(np.array(x[first:last]), np.array(y[first:last]), chosen)
+        departures = [abs(slope - fitted) for slope in slopes[first : last - 1]]
+        spread = max(departures)
+        spread_rounding = rounding + chosen[1 + departures.index(spread)].order_rounding
     return FittedOrder(
         method=method.name,
         case=cells[0].case,
@@ -47,7 +52,21 @@ def fit_order(method: Method, cells: Sequence[Cell]) -> FittedOrder:
         spread=spread,
         cells_used=len(chosen),
         n_range=(chosen[0].n, chosen[-1].n) if chosen else None,
+        rounding=rounding,
+        spread_rounding=spread_rounding,
     )
+
+
+def _weighted_slope(x: np.ndarray, y: np.ndarray, cells: Sequence[Cell]) -> tuple[float, float]:
+    """The least-squares slope of y = -log(error) against x, and what rounding can make of it.
+
+    A cell weighs the less the more of it may be rounding.
+    """
+    relative = np.array([cell.rounding / cell.max_error for cell in cells])
+    weights = 1 / (NO_POWER**2 + relative**2)
+    centred = x - weights @ x / weights.sum()
+    shares = weights * centred / (weights * centred @ centred)
+    return float(shares @ y), float(np.linalg.norm(shares * relative))
 
 
 def _longest_run(slopes: Sequence[float]) -> tuple[int, int]:

@@ -73,4 +73,4 @@ def _starts(run: Run) -> list[Run]:
     while len(courses) < STARTS:
         courses.append(courses[-1].neighbour)
     marches = march(run.method, [course.lane for course in courses[1:]], run.course.fmt)
-    return [run, *(Run(run.method, *one, run.cell) for one in zip(courses[1:], marches, strict=True))]
+    return [run, *(Run(run.method, *one, run.cell, run.rounding) for one in zip(courses[1:], marches, strict=True))]

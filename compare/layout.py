@@ -8,11 +8,29 @@ from typing import TYPE_CHECKING, Any
 
 from compare import grid
 from compare.grid import Column, Grid
+from compare.records import FLOOR_FACTOR
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Sequence
 
-__all__ = ["by_steps", "digits", "methods_of", "of_steps", "representative", "scientific", "split", "steps_of"]
+__all__ = [
+    "ROUNDING_NOTE",
+    "by_steps",
+    "decided",
+    "digits",
+    "is_rounding",
+    "methods_of",
+    "of_steps",
+    "representative",
+    "scientific",
+    "split",
+    "starred",
+    "steps_of",
+]
+
+ROUNDING_NOTE = f"* means rounding: within {FLOOR_FACTOR} times what it may have made of the number"
+DOUBT = 2
+"""What another machine makes of rounding stays within this factor of what this one tells of it."""
 
 
 def methods_of(records: Iterable[Any]) -> list[str]:
@@ -113,9 +131,31 @@ def representative(steps: Sequence[int], fits: Callable[[Sequence[int]], bool]) 
     return steps[len(steps) // 2 :][:1]
 
 
-def scientific(value: float) -> str:
-    """Three digits and an exponent."""
-    return digits(value, ".2e")
+def scientific(value: float, rounding: float = 0.0) -> str:
+    """Three digits and an exponent; fewer where rounding may change them."""
+    return decided(value, rounding, (".2e", ".1e", ".0e"))
+
+
+def decided(value: float, rounding: float, forms: Sequence[str]) -> str:
+    """A number in the first of the forms in which nothing within DOUBT of rounding reads otherwise, or else the last.
+
+    So a table reads the same wherever it is made, but where rounding is all there is.
+    """
+    if not math.isfinite(value):
+        return str(value)
+    off = DOUBT * rounding if math.isfinite(rounding) else 0.0
+    same = (form for form in forms if format(value - off, form) == format(value + off, form))
+    return format(value, next(same, forms[-1]))
+
+
+def starred(value: float, rounding: float) -> str:
+    """``scientific``, with a mark where rounding decides."""
+    return scientific(value, rounding) + "*" * is_rounding(value, rounding)
+
+
+def is_rounding(value: float, rounding: float) -> bool:
+    """Whether a number is within FLOOR_FACTOR of rounding; a zero that nothing bounds is a zero."""
+    return bool(abs(value) <= FLOOR_FACTOR * rounding and rounding > 0)
 
 
 def digits(value: float, form: str) -> str:

@@ -33,8 +33,9 @@ COLUMNS: Columns = {
         "rms_velocity_error",
         "digits",
         "jacobians",
+        "rounding",
     ),
-    "order": ("method", "case", "declared_order", "fitted_order", "spread", "cells_used", "n_range"),
+    "order": ("method", "case", "declared_order", "fitted_order", "spread", "cells_used", "n_range", "rounding"),
     "energy_drift": (
         "method",
         "n",
@@ -44,6 +45,7 @@ COLUMNS: Columns = {
         "max_drift_relative",
         "slope_per_period",
         "slope_interval",
+        "rounding",
     ),
     "phase": (
         "method",
@@ -55,10 +57,21 @@ COLUMNS: Columns = {
         "max_amplitude_error",
         "end_amplitude_error",
         "lost",
+        "phase_rounding",
+        "amplitude_rounding",
     ),
     "growth": ("method", "n", "h", "case", "quantity", "exponent", "interval", "law", "windows", "starts", "floor"),
-    "period": ("method", "n", "h", "case", "period", "relative_error"),
-    "defects": ("method", "n", "h", "case", "symplecticity", "reversibility"),
+    "period": ("method", "n", "h", "case", "period", "relative_error", "rounding"),
+    "defects": (
+        "method",
+        "n",
+        "h",
+        "case",
+        "symplecticity",
+        "reversibility",
+        "symplecticity_rounding",
+        "reversibility_rounding",
+    ),
 }
 
 

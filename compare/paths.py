@@ -13,7 +13,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from reference.exact import as_number, exact
-from reference.problem import ClosedForm, Problem, Quantity, Row
+from reference.problem import APART, ClosedForm, Problem, Quantity, Row
 from reference.problems.cycloid.arc import CycloidArc
 from reference.problems.polar import PolarBrachistochrone
 from reference.problems.polar.equations import POINT_MASS
@@ -41,8 +41,8 @@ class CycloidCurve(CycloidArc):
         return 0.0
 
     def neighbour(self, rounding: Callable[[Fraction], Fraction], epsilon: Fraction) -> CycloidCurve:
-        """The curve whose radius is larger by 2^-20 of itself, or by 16 roundings."""
-        return CycloidCurve(rounding(self.radius * (1 + max(Fraction(1, 1 << 20), 16 * epsilon))))
+        """The curve whose radius is larger by 2^-36 of itself, or by 16 roundings."""
+        return CycloidCurve(rounding(self.radius * (1 + max(APART, 16 * epsilon))))
 
 
 @dataclass(frozen=True, repr=False)
@@ -78,8 +78,8 @@ class PolarCurve(Problem):
         return 0.0
 
     def neighbour(self, rounding: Callable[[Fraction], Fraction], epsilon: Fraction) -> PolarCurve:
-        """The path whose lowest point is lower by 2^-20 of itself, or by 16 roundings."""
-        return type(self)(rounding(self.z0 * (1 - max(Fraction(1, 1 << 20), 16 * epsilon))))
+        """The path whose lowest point is lower by 2^-36 of itself, or by 16 roundings."""
+        return type(self)(rounding(self.z0 * (1 - max(APART, 16 * epsilon))))
 
     def working_bits(self, arguments: Sequence[Any]) -> int:
         return self.polar.working_bits(arguments)

@@ -68,7 +68,14 @@ def _record(run: Run, lane: Lane, states: np.ndarray) -> OwnPeriod:
         if known is not None and len(passages) == 2:
             own = passages[1] - passages[0]
             period, error = float(own), float(own * _frequency(known) - 1)
-    return OwnPeriod(run.method.name, course.n, float(course.h), course.case, period, error)
+    return OwnPeriod(run.method.name, course.n, float(course.h), course.case, period, error, _rounding(run))
+
+
+def _rounding(run: Run) -> float:
+    """A bound on rounding's part of period/exact: that of the phase, which grows with the root of time at least."""
+    course = run.course
+    part = min(2 * period_of(course.problem) / float(course.t_end), 1.0)
+    return run.phase_rounding * math.sqrt(part) / (2 * math.pi) + 4 * course.fmt.epsilon
 
 
 def _frequency(known: Orbits) -> arb:

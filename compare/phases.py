@@ -27,6 +27,7 @@ def phases(runs: Sequence[Run]) -> list[Phase]:
 
 def _phase(run: Run) -> Phase:
     phase, amplitude = run.orbital.T
+    drift = _largest(run.drift)
     return Phase(
         method=run.method.name,
         n=run.course.n,
@@ -37,6 +38,8 @@ def _phase(run: Run) -> Phase:
         max_amplitude_error=_largest(amplitude),
         end_amplitude_error=float(amplitude[-1]),
         lost=int(np.count_nonzero(~np.isfinite(phase))),
+        phase_rounding=run.phase_rounding,
+        amplitude_rounding=_largest(amplitude) * run.rounding.drift / drift if drift > 0 else 0.0,
     )
 
 

@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 __all__ = [
+    "FLOOR_FACTOR",
     "Case",
     "Cell",
     "Defect",
@@ -18,6 +19,9 @@ __all__ = [
     "Study",
     "Trace",
 ]
+
+FLOOR_FACTOR = 10
+"""A number within this factor of what rounding may have made of it is rounding."""
 
 
 @dataclass(frozen=True)
@@ -92,6 +96,9 @@ class Cell(OfCase):
         rms_velocity_error: root mean square over the samples of the error of the velocity.
         digits: correct digits: -log10 of max_error over the largest value of the place, at most what the format holds.
         jacobians: evaluations of the Jacobian, or of the invariant's gradient, over the march.
+        rounding: a bound on rounding's part of the errors of the place; what it may change is not printed.
+        velocity_rounding: the same of the errors of the velocity.
+        order_rounding: the same of the local order.
     """
 
     method: str
@@ -109,6 +116,9 @@ class Cell(OfCase):
     rms_velocity_error: float
     digits: float
     jacobians: int
+    rounding: float = 0.0
+    velocity_rounding: float = 0.0
+    order_rounding: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -118,6 +128,8 @@ class FittedOrder(OfCase):
     Attributes:
         n_range: the smallest and largest N used, or None.
         spread: the largest distance of a local slope in the range from the fitted one, or None.
+        rounding: a bound on rounding's part of the fitted order.
+        spread_rounding: the same of the spread.
     """
 
     method: str
@@ -127,6 +139,8 @@ class FittedOrder(OfCase):
     spread: float | None
     cells_used: int
     n_range: tuple[int, int] | None
+    rounding: float = 0.0
+    spread_rounding: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -139,6 +153,8 @@ class Drift(OfCase):
         slope_per_period: least-squares slope of (E - E0)/(E0 - Emin) over the sample times, per period, or per unit of
             time where the motion has no period: the case says which.
         slope_interval: half-width of its 95 % interval.
+        rounding: a bound on rounding's part of max_drift_above_rest.
+        slope_rounding: the same of slope_per_period.
     """
 
     method: str
@@ -149,6 +165,8 @@ class Drift(OfCase):
     max_drift_relative: float
     slope_per_period: float
     slope_interval: float
+    rounding: float = 0.0
+    slope_rounding: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -161,6 +179,8 @@ class Phase(OfCase):
         max_amplitude_error: largest |amplitude - exact| over the samples, in the place's units; NaN where it has none.
         end_amplitude_error: amplitude - exact at the last sample.
         lost: samples whose state is on no orbit of the exact motion's kind, and has no phase.
+        phase_rounding: a bound on rounding's part of max_phase_error.
+        amplitude_rounding: the same of max_amplitude_error.
     """
 
     method: str
@@ -172,6 +192,8 @@ class Phase(OfCase):
     max_amplitude_error: float
     end_amplitude_error: float
     lost: int
+    phase_rounding: float = 0.0
+    amplitude_rounding: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -208,6 +230,7 @@ class OwnPeriod(OfCase):
     Attributes:
         period: in the units of time; NaN where two passages were not found.
         relative_error: period/exact - 1.
+        rounding: a bound on rounding's part of it.
     """
 
     method: str
@@ -216,6 +239,7 @@ class OwnPeriod(OfCase):
     case: Case
     period: float
     relative_error: float
+    rounding: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -227,6 +251,7 @@ class Defect(OfCase):
             for a method that carries more than the state from step to step, or a problem without momenta.
         reversibility: the distance from the start after n steps forward, the velocity turned round, and n steps back,
             each component over its largest value.
+        symplecticity_rounding, reversibility_rounding: bounds on rounding's part of each.
     """
 
     method: str
@@ -235,6 +260,8 @@ class Defect(OfCase):
     case: Case
     symplecticity: float
     reversibility: float
+    symplecticity_rounding: float = 0.0
+    reversibility_rounding: float = 0.0
 
 
 @dataclass(frozen=True)

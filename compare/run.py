@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from compare.march import March
     from compare.method import Method
     from compare.records import Cell
+    from compare.rounding import Rounding
     from compare.submission.place import Orbits, Place
 
 __all__ = ["SPARE_BITS", "Run", "as_balls", "exactly"]
@@ -38,6 +39,7 @@ class Run:
     course: Course
     march: March
     cell: Cell
+    rounding: Rounding
 
     @cached_property
     def place(self) -> np.ndarray:
@@ -50,6 +52,11 @@ class Run:
         """(E - E0)/(E0 - Emin) at each sample."""
         with np.errstate(over="ignore", invalid="ignore"):
             return self.course.drift(self.march.states)
+
+    @property
+    def phase_rounding(self) -> float:
+        """A bound on rounding's part of the phase in rad, which is that of the state in units of its size."""
+        return float(np.max(self.rounding.state / self.course.sizes))
 
     @cached_property
     def orbital_known(self) -> bool:

@@ -14,9 +14,9 @@ import numpy as np
 from compare.aspects import conserves, period_of
 from compare.course import SAMPLES, Course
 from compare.fit import fit_order, slope_with_interval, student_95
-from compare.floors import floors_of
 from compare.march import march
 from compare.records import Cell, Drift
+from compare.rounding import roundings_of
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from compare.march import March
     from compare.method import Method
     from compare.precision import Precision
+    from compare.rounding import Rounding
     from reference.problem import Problem
 
 __all__ = [
@@ -41,8 +42,8 @@ __all__ = [
 
 def score_method(method: Method, courses: Sequence[Course], fmt: Precision) -> tuple[list[Cell], list[Drift]]:
     """March a method over every course and score it: a Cell a course, and a Drift where something is conserved."""
-    cells, marches = score_courses(method, courses, fmt)
-    return cells, drifts(method, courses, marches)
+    cells, marches, roundings = score_courses(method, courses, fmt)
+    return cells, drifts(method, courses, marches, roundings)
 
 
 def score_errors(method: Method, courses: Sequence[Course], fmt: Precision) -> list[Cell]:
@@ -52,8 +53,8 @@ def score_errors(method: Method, courses: Sequence[Course], fmt: Precision) -> l
 
 def score_courses(
     method: Method, courses: Sequence[Course], fmt: Precision, *, relative: bool = True
-) -> tuple[list[Cell], list[March]]:
-    """March a method over every course: a Cell a course, and what the march gave.
+) -> tuple[list[Cell], list[March], list[Rounding]]:
+    """March a method over every course: a Cell a course, what the march gave, and what rounding made of it.
 
     Errors are in each case's unit, or where they are not ``relative`` in the units of the state itself.
     """
@@ -61,31 +62,35 @@ def score_courses(
     with np.errstate(over="ignore", invalid="ignore"):
         marches = march(method, [course.lane for course in courses], fmt)
         errors = [course.errors(result.states) for course, result in zip(courses, marches, strict=True)]
-        floors = floors_of(method, courses, errors, fmt)
+        roundings = roundings_of(method, courses, marches, errors, fmt)
         cells: list[Cell] = []
         before: Course | None = None
-        for course, result, signed, floor in zip(courses, marches, errors, floors, strict=True):
+        for course, result, signed, rounding in zip(courses, marches, errors, roundings, strict=True):
             previous = cells[-1] if before is not None and before.problem == course.problem else None
-            cells.append(_cell(method, course, result, _Sizes(course, signed, relative=relative), previous, floor))
+            cells.append(_cell(method, course, result, _Sizes(course, signed, rounding, relative=relative), previous))
             before = course
-    return cells, marches
+    return cells, marches, roundings
 
 
-def drifts(method: Method, courses: Sequence[Course], marches: Sequence[March]) -> list[Drift]:
+def drifts(
+    method: Method, courses: Sequence[Course], marches: Sequence[March], roundings: Sequence[Rounding]
+) -> list[Drift]:
     """The drift of what is conserved, for each march of a problem that conserves something."""
     with np.errstate(over="ignore", invalid="ignore"):
         return [
-            _drift(method, course, result)
-            for course, result in zip(courses, marches, strict=True)
+            _drift(method, course, result, rounding.drift)
+            for course, result, rounding in zip(courses, marches, roundings, strict=True)
             if conserves(course.problem)
         ]
 
 
-def _cell(method: Method, course: Course, result: March, sizes: _Sizes, previous: Cell | None, floor: bool) -> Cell:
+def _cell(method: Method, course: Course, result: March, sizes: _Sizes, previous: Cell | None) -> Cell:
     place, velocity = sizes.place, sizes.velocity
-    slope = None
+    slope, slope_rounding = None, 0.0
     if previous is not None and 0 < place.largest < math.inf and 0 < previous.max_error < math.inf:
-        slope = math.log(previous.max_error / place.largest) / math.log(course.n / previous.n)
+        ratio = math.log(course.n / previous.n)
+        slope = math.log(previous.max_error / place.largest) / ratio
+        slope_rounding = (sizes.rounding / place.largest + previous.rounding / previous.max_error) / ratio
     return Cell(
         method=method.name,
         n=course.n,
@@ -94,7 +99,7 @@ def _cell(method: Method, course: Course, result: March, sizes: _Sizes, previous
         max_error=place.largest,
         end_error=place.last,
         local_order=slope,
-        floor=floor,
+        floor=sizes.floor,
         evaluations=result.evaluations,
         rms_error=place.mean_square,
         max_velocity_error=velocity.largest,
@@ -102,15 +107,22 @@ def _cell(method: Method, course: Course, result: March, sizes: _Sizes, previous
         rms_velocity_error=velocity.mean_square,
         digits=_digits(sizes.worst, course.fmt.bits),
         jacobians=result.jacobians,
+        rounding=sizes.rounding,
+        velocity_rounding=sizes.velocity_rounding,
+        order_rounding=slope_rounding,
     )
 
 
 class _Sizes:
-    """The errors [samples, state] of a course in sizes, of its place and of its velocity."""
+    """The errors [samples, state] of a course in sizes, of its place and of its velocity, and rounding's part."""
 
-    def __init__(self, course: Course, signed: np.ndarray, *, relative: bool) -> None:
+    def __init__(self, course: Course, signed: np.ndarray, rounding: Rounding, *, relative: bool) -> None:
         errors, aspect = np.abs(signed), course.aspect
-        scaled = errors / course.units if relative else errors
+        units = course.units if relative else np.ones_like(course.units)
+        scaled, rounded = errors / units, rounding.state / units
+        self.floor = rounding.floor
+        self.rounding = rounding.place if relative else float(np.max(rounded[list(aspect.places)]))
+        self.velocity_rounding = float(np.max(rounded[list(aspect.rates)], initial=0.0))
         self.place, self.velocity = _Norms(scaled[:, list(aspect.places)]), _Norms(scaled[:, list(aspect.rates)])
         self.worst = _Norms((errors / course.sizes)[:, list(aspect.places)]).largest
 
@@ -146,7 +158,7 @@ def _digits(relative: float, bits: int) -> float:
     return min(max(-math.log10(relative), 0.0), held) if relative else held
 
 
-def _drift(method: Method, course: Course, result: March) -> Drift:
+def _drift(method: Method, course: Course, result: March, rounding: float) -> Drift:
     period, energy = _scales(course.problem)
     cycles = np.array(course.steps) * (float(course.h) / (period if math.isfinite(period) else 1.0))
     slope, interval = slope_with_interval(cycles, course.drift(result.states))
@@ -159,6 +171,8 @@ def _drift(method: Method, course: Course, result: March) -> Drift:
         max_drift_relative=_ratio(result.max_drift, course.level if energy is None else energy),
         slope_per_period=slope,
         slope_interval=interval,
+        rounding=rounding,
+        slope_rounding=2 * rounding / float(cycles[-1]),
     )
 
 

@@ -7,11 +7,12 @@ The machine forms (CSV, JSON) hold every number at full precision; `compare.mach
 from __future__ import annotations
 
 import math
+from operator import attrgetter
 from typing import TYPE_CHECKING
 
 from compare import grid, machine, rendering, table_extras
 from compare.grid import Column, Grid, Section
-from compare.layout import by_steps, digits, of_steps, scientific
+from compare.layout import by_steps, decided, digits, of_steps, scientific, starred
 from compare.rendering import FORMATS, Tables
 
 if TYPE_CHECKING:
@@ -61,7 +62,7 @@ def _drift(study: Study, case: Case, declared: dict[str, int], width: int) -> It
     """The drift of what is conserved, and its trend."""
     drifts = [drift for drift in study.energy_drift if drift.case == case]
     if drifts:
-        yield _drift_section(drifts, declared, width)
+        yield from _drift_section(drifts, declared, width)
         yield _slope_section(drifts, declared, width)
 
 
@@ -85,7 +86,7 @@ def _error_section(cells: Sequence[Cell], declared: dict[str, int], width: int) 
 
 
 def _error_cell(cell: Cell) -> tuple[str, str]:
-    return scientific(cell.max_error), "*" if cell.floor else _local_order(cell.local_order)
+    return scientific(cell.max_error, cell.rounding), "*" if cell.floor else _local_order(cell)
 
 
 def _order_section(fits: Sequence[FittedOrder]) -> Section:
@@ -117,15 +118,13 @@ def _order_section(fits: Sequence[FittedOrder]) -> Section:
     )
 
 
-def _drift_section(drifts: Sequence[Drift], declared: dict[str, int], width: int) -> Section:
+def _drift_section(drifts: Sequence[Drift], declared: dict[str, int], width: int) -> Iterator[Section]:
     case = drifts[0].case
     name, change = case.drift or ("", "")
     size = f"|{change.partition('/')[0].strip('()')}|/{change.partition('/')[2]}"
-    return Section(
-        name=f"energy-drift-{grid.slug(case.label)}",
-        title=f"{name} drift, {case.label}: max {size} over every step",
-        grids=by_steps(drifts, declared, width, lambda drift: [scientific(drift.max_drift_above_rest)]),
-    )
+    title = f"{name} drift, {case.label}: max {size} over every step"
+    numbers = attrgetter("max_drift_above_rest", "rounding")
+    yield from table_extras.plain(drifts, "energy-drift", title, numbers, (declared, width))
 
 
 def _slope_section(drifts: Sequence[Drift], declared: dict[str, int], width: int) -> Section:
@@ -134,8 +133,10 @@ def _slope_section(drifts: Sequence[Drift], declared: dict[str, int], width: int
     slope = f"slope of {change} per {case.cycle}, 95 % interval"
 
     def cells(drift: Drift) -> tuple[str, ...]:
-        trend = f"{scientific(drift.slope_per_period)} ± {digits(drift.slope_interval, '.0e')}"
-        return (scientific(drift.max_drift_relative), trend) if case.energy else (trend,)
+        slope = starred(drift.slope_per_period, drift.slope_rounding)
+        trend = f"{slope} ± {digits(drift.slope_interval, '.0e')}"
+        scale = drift.max_drift_relative / (drift.max_drift_above_rest or math.inf)
+        return (starred(drift.max_drift_relative, scale * drift.rounding), trend) if case.energy else (trend,)
 
     labels = [*(["relative"] if case.energy else []), f"slope per {case.cycle}"]
     return Section(
@@ -145,19 +146,26 @@ def _slope_section(drifts: Sequence[Drift], declared: dict[str, int], width: int
     )
 
 
-def _local_order(order: float | None) -> str:
-    """Four characters: 1.02, -0.5, 12.3."""
+def _local_order(cell: Cell) -> str:
+    """Four characters: 1.02, -0.5, 12.3; fewer where rounding may change them."""
+    order = cell.local_order
     if order is None or not math.isfinite(order):
         return "-"
-    return f"{order:.2f}" if 0 <= order < 9.995 else f"{order:.1f}"
+    return decided(order, cell.order_rounding, (".2f", ".1f", ".0f") if 0 <= order < 9.995 else (".1f", ".0f"))
 
 
 def _fitted(fit: FittedOrder) -> str:
+    """The order and the spread, each to as many decimals as rounding leaves; of a tiny spread its power of ten."""
     if fit.fitted_order is None:
         return "-"
+    fitted = decided(fit.fitted_order, fit.rounding, _DECIMALS)
     if fit.spread is None:
-        return f"{fit.fitted_order:.4f}"
-    return f"{fit.fitted_order:.4f} ± {fit.spread:{'.4f' if fit.spread >= 5e-5 else '.0e'}}"
+        return fitted
+    forms = _DECIMALS if fit.spread >= 5e-5 else (".0e",)
+    return f"{fitted} ± {decided(fit.spread, fit.spread_rounding, forms)}"
+
+
+_DECIMALS = (".4f", ".3f", ".2f")
 
 
 _SECTIONS: dict[str, Callable[[Study, Case, dict[str, int], int], Iterator[Section]]] = {

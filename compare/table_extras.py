@@ -8,14 +8,14 @@ from typing import TYPE_CHECKING, Any
 
 from compare import grid
 from compare.grid import Section
-from compare.layout import by_steps, digits, of_steps, scientific
+from compare.layout import ROUNDING_NOTE, by_steps, decided, is_rounding, of_steps, starred
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
 
-    from compare.records import Case, Cell, Growth, Study
+    from compare.records import Case, Cell, Growth, Phase, Study
 
-__all__ = ["SECTIONS"]
+__all__ = ["SECTIONS", "plain"]
 
 QUANTITIES = ("place", "phase", "energy")
 _GROWTH_NOTE = (
@@ -44,12 +44,14 @@ def _norms(study: Study, case: Case, declared: dict[str, int], width: int) -> It
 
 
 def _place_norms(cell: Cell) -> list[str]:
-    errors = map(scientific, (cell.max_error, cell.rms_error, cell.end_error))
-    return [*errors, digits(cell.digits, ".1f"), str(cell.evaluations)]
+    errors = [starred(error, cell.rounding) for error in (cell.max_error, cell.rms_error, cell.end_error)]
+    doubt = cell.rounding / (cell.max_error or math.inf) / math.log(10)
+    return [*errors, decided(cell.digits, doubt, (".1f", ".0f")), str(cell.evaluations)]
 
 
 def _velocity_norms(cell: Cell) -> list[str]:
-    return list(map(scientific, (cell.max_velocity_error, cell.rms_velocity_error, cell.end_velocity_error)))
+    errors = cell.max_velocity_error, cell.rms_velocity_error, cell.end_velocity_error
+    return [starred(error, cell.velocity_rounding) for error in errors]
 
 
 def _phase(study: Study, case: Case, declared: dict[str, int], width: int) -> Iterator[Section]:
@@ -59,19 +61,31 @@ def _phase(study: Study, case: Case, declared: dict[str, int], width: int) -> It
     yield Section(
         name=f"phase-{grid.slug(case.label)}",
         title=f"Phase, {case.label}: largest |phase - exact| over the sample times, in rad, 2 pi a period",
-        grids=by_steps(
-            found, declared, width, lambda phase: [scientific(phase.max_phase_error) + "!" * bool(phase.lost)]
+        grids=by_steps(found, declared, width, _phase_cell),
+        note="\n".join(
+            note
+            for note, applies in (
+                (ROUNDING_NOTE, any(is_rounding(phase.max_phase_error, phase.phase_rounding) for phase in found)),
+                (_LOST_NOTE, any(phase.lost for phase in found)),
+            )
+            if applies
         ),
-        note="! means that some states are on no orbit of the exact kind and have no phase"
-        if any(phase.lost for phase in found)
-        else "",
     )
     if not all(math.isnan(phase.max_amplitude_error) for phase in found):
-        yield Section(
-            name=f"amplitude-{grid.slug(case.label)}",
-            title=f"Amplitude, {case.label}: largest |amplitude - exact| over the sample times, in units of the place",
-            grids=by_steps(found, declared, width, lambda phase: [scientific(phase.max_amplitude_error)]),
+        yield from plain(
+            found,
+            "amplitude",
+            f"Amplitude, {case.label}: largest |amplitude - exact| over the sample times, in units of the place",
+            attrgetter("max_amplitude_error", "amplitude_rounding"),
+            (declared, width),
         )
+
+
+_LOST_NOTE = "! means that some states are on no orbit of the exact kind and have no phase"
+
+
+def _phase_cell(phase: Phase) -> list[str]:
+    return [starred(phase.max_phase_error, phase.phase_rounding) + "!" * bool(phase.lost)]
 
 
 def _growth(study: Study, case: Case, declared: dict[str, int], width: int) -> Iterator[Section]:
@@ -98,12 +112,12 @@ def _growth_cells(growth: Growth) -> list[str]:
 
 
 def _period(study: Study, case: Case, declared: dict[str, int], width: int) -> Iterator[Section]:
-    yield from _plain(
+    yield from plain(
         [period for period in study.period or () if period.case == case],
         "period",
         f"Period, {case.label}: own/exact - 1, between two passages through the bottom, each where the phase of the "
         "orbits through the states around it, taken as linear, is whole",
-        lambda period: period.relative_error,
+        attrgetter("relative_error", "rounding"),
         (declared, width),
     )
 
@@ -112,7 +126,8 @@ def _defects(study: Study, case: Case, declared: dict[str, int], width: int) -> 
     found = [defect for defect in study.defects or () if defect.case == case]
     for what, title in _DEFECTS.items():
         known = [defect for defect in found if not math.isnan(getattr(defect, what))]
-        yield from _plain(known, what, title.format(case.label), attrgetter(what), (declared, width))
+        numbers = attrgetter(what, f"{what}_rounding")
+        yield from plain(known, what, title.format(case.label), numbers, (declared, width))
 
 
 _DEFECTS = {
@@ -121,13 +136,18 @@ _DEFECTS = {
 }
 
 
-def _plain(
-    records: Sequence[Any], name: str, title: str, value: Callable[[Any], float], layout: tuple[dict[str, int], int]
+def plain(
+    records: Sequence[Any],
+    name: str,
+    title: str,
+    numbers: Callable[[Any], tuple[float, float]],
+    layout: tuple[dict[str, int], int],
 ) -> Iterator[Section]:
-    """One number for each method and N, if there are any."""
+    """One number for each method and N, if there are any; ``numbers`` gives it with rounding's part of it."""
     if records:
-        grids = by_steps(records, *layout, lambda record: [scientific(value(record))])
-        yield Section(f"{name}-{grid.slug(records[0].case.label)}", title, grids)
+        grids = by_steps(records, *layout, lambda record: [starred(*numbers(record))])
+        marked = any(is_rounding(*numbers(record)) for record in records)
+        yield Section(f"{name}-{grid.slug(records[0].case.label)}", title, grids, ROUNDING_NOTE if marked else "")
 
 
 SECTIONS: dict[str, Callable[[Study, Case, dict[str, int], int], Iterator[Section]]] = {

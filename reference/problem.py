@@ -27,10 +27,12 @@ if TYPE_CHECKING:
 
     from reference.arithmetic import Arithmetic
 
-__all__ = ["ClosedForm", "Problem", "Quantity", "Row", "SeparableProblem", "Solution"]
+__all__ = ["APART", "ClosedForm", "Problem", "Quantity", "Row", "SeparableProblem", "Solution"]
 
 TAYLOR_BITS = 1024
 """The Taylor route serves what needs at most this working precision."""
+APART = Fraction(1, 1 << 36)
+"""By such a part a neighbour begins elsewhere: far enough for other roundings, too near for other truncation errors."""
 ROUTE_BITS = 8192
 """No route but the enclosure serves what needs more working precision than this."""
 

@@ -248,6 +248,7 @@ def test_machine_forms_hold_all_that_was_scored_whatever_is_shown():
     assert found["phase"][0] == {
         "method": "verlet", "n": 128, "h": 0.078125, "theta0": 1.0, "max_phase_error": 1.25e-3,
         "end_phase_error": -1e-3, "max_amplitude_error": 2.5e-4, "end_amplitude_error": 1e-4, "lost": 1,
+            "phase_rounding": 0.0, "amplitude_rounding": 0.0,
     }  # fmt: skip
     assert found["defects"][-1]["symplecticity"] is None
     assert list(table.files(study, "csv")) == [f"pendulum-{name}.csv" for name in machine.COLUMNS]

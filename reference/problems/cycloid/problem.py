@@ -12,7 +12,7 @@ from mpmath import mp
 
 from reference.arithmetic import MPMATH, Arithmetic, CalculusArithmetic
 from reference.exact import as_number, exact
-from reference.problem import Row, SeparableProblem
+from reference.problem import APART, Row, SeparableProblem
 from reference.problems.cycloid.brachistochrone import Brachistochrone, QuadratureBrachistochrone
 from reference.problems.cycloid.equations import arc_acceleration, arc_energy
 from reference.problems.cycloid.quantities import DESCENT_ROWS, accept, exponent, positive_number
@@ -108,11 +108,11 @@ class Cycloid(SeparableProblem):
         return math.pi / (2 * self._quarter_swing)
 
     def neighbour(self, rounding: Callable[[Fraction], Fraction], epsilon: Fraction) -> Cycloid:
-        """The descent to an end point whose x is smaller by 2^-20 of itself, or by 16 roundings.
+        """The descent to an end point whose x is smaller by 2^-36 of itself, or by 16 roundings.
 
         Every descent starts at (0, 0); it is the radius that differs.
         """
-        return Cycloid(rounding(self.end_x * (1 - max(Fraction(1, 1 << 20), 16 * epsilon))), self.end_y, self.g)
+        return Cycloid(rounding(self.end_x * (1 - max(APART, 16 * epsilon))), self.end_y, self.g)
 
     def closed_form(self, m: CalculusArithmetic) -> Brachistochrone:
         """The closed form in balls or in mpmath."""

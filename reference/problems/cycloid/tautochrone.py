@@ -12,7 +12,7 @@ from mpmath import mp
 from reference.arithmetic import BALL, MPMATH, Arithmetic, EllipticArithmetic
 from reference.exact import as_number, exact
 from reference.limbs import Interval, interval, ziv
-from reference.problem import Problem, Row, SeparableProblem
+from reference.problem import APART, Problem, Row, SeparableProblem
 from reference.problems.cycloid.equations import (
     angular_acceleration,
     arc_acceleration,
@@ -173,9 +173,9 @@ class Tautochrone(Swinging):
             return 2 * self.frequency() / float(mp.cos(MPMATH.number(self.angle) / 2))
 
     def neighbour(self, rounding: Callable[[Fraction], Fraction], epsilon: Fraction) -> Tautochrone:
-        """The start nearer to rest by 2^-20 of its way to 0 or to the cusp, or by 16 roundings."""
+        """The start nearer to rest by 2^-36 of its way to 0 or to the cusp, or by 16 roundings."""
         size = abs(self.angle)
-        shift = max(min(size, self._below_cusp) / (1 << 20), 16 * epsilon * size)
+        shift = max(min(size, self._below_cusp) * APART, 16 * epsilon * size)
         moved = self.angle - shift if self.angle > 0 else self.angle + shift
         return Tautochrone(rounding(moved), self.radius, self.g)
 
@@ -252,8 +252,8 @@ class CycloidalPendulum(SeparableProblem, Swinging):
         return self.frequency()
 
     def neighbour(self, rounding: Callable[[Fraction], Fraction], epsilon: Fraction) -> CycloidalPendulum:
-        """The start nearer to the bottom by 2^-20 of its way, or by 16 roundings."""
-        smaller = 1 - max(Fraction(1, 1 << 20), 16 * epsilon)
+        """The start nearer to the bottom by 2^-36 of its way, or by 16 roundings."""
+        smaller = 1 - max(APART, 16 * epsilon)
         return CycloidalPendulum(rounding(self.arc * smaller), self.radius, self.g)
 
     def exact_row(self, row: str, argument: Any) -> tuple[Fraction, ...] | None:

@@ -15,7 +15,7 @@ from reference.dual import DualArithmetic
 from reference.exact import as_number, exact
 from reference.limbs import ziv
 from reference.names import short
-from reference.problem import ClosedForm, Problem, Row
+from reference.problem import APART, ClosedForm, Problem, Row
 from reference.problems.descent.admission import admitted
 from reference.problems.descent.curves import Curve, CycloidByArc, lagrange, spelled_curve
 from reference.problems.descent.equations import energy
@@ -144,8 +144,8 @@ class Descent(Problem):
         return max(found)
 
     def neighbour(self, rounding: Callable[[Fraction], Fraction], epsilon: Fraction) -> Descent:
-        """Released further on, by 2^-20 of the way that is left or by 16 roundings."""
-        shift = max(Fraction(1, 1 << 20), 16 * epsilon)
+        """Released further on, by 2^-36 of the way that is left or by 16 roundings."""
+        shift = max(APART, 16 * epsilon)
         return Descent(self.curve, self.g, released=rounding(self.released + (1 - self.released) * shift))
 
     def closed_form(self, m: Any) -> ClosedForm:

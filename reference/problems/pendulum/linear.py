@@ -11,7 +11,7 @@ from mpmath import mp
 
 from reference.arithmetic import MPMATH, Arithmetic, EllipticArithmetic
 from reference.exact import as_number, exact
-from reference.problem import Row, SeparableProblem
+from reference.problem import APART, Row, SeparableProblem
 from reference.problems.pendulum.motions import Rest
 from reference.problems.pendulum.quantities import LINEAR_ROWS
 from reference.problems.pendulum.taylor import TAYLOR_RADIANS, hanging
@@ -106,8 +106,8 @@ class LinearPendulum(SeparableProblem):
         return float(mp.sqrt(MPMATH.number(self.g / self.length)))
 
     def neighbour(self, rounding: Callable[[Fraction], Fraction], epsilon: Fraction) -> LinearPendulum:
-        """The pendulum whose start is nearer to rest by 2^-20, or by 16 roundings."""
-        nearer = 1 - max(Fraction(1, 1 << 20), 16 * epsilon)
+        """The pendulum whose start is nearer to rest by 2^-36, or by 16 roundings."""
+        nearer = 1 - max(APART, 16 * epsilon)
         return LinearPendulum(rounding(self.theta0 * nearer), self.g, self.length, rounding(self.omega0 * nearer))
 
     def closed_form(self, m: EllipticArithmetic) -> Linear:

@@ -14,7 +14,7 @@ from mpmath import mp
 from reference.arithmetic import BALL, MPMATH, Arithmetic, EllipticArithmetic
 from reference.exact import as_number, exact
 from reference.limbs import ziv
-from reference.problem import Row, SeparableProblem
+from reference.problem import APART, Row, SeparableProblem
 from reference.problems.pendulum.chart import MANY, Chart, chart
 from reference.problems.pendulum.equations import angular_acceleration, energy_above_rest
 from reference.problems.pendulum.events import DECISION_BITS, Events, events
@@ -155,10 +155,10 @@ class Pendulum(SeparableProblem):
         return float(mp.sqrt(MPMATH.number(self.g / self.length)))
 
     def neighbour(self, rounding: Callable[[Fraction], Fraction], epsilon: Fraction) -> Pendulum:
-        """The pendulum whose start is nearer to rest by 2^-20 of its way to 0 or pi, or by 16 roundings."""
+        """The pendulum whose start is nearer to rest by 2^-36 of its way to 0 or pi, or by 16 roundings."""
         size = abs(self.theta0)
-        shift = max(min(size, abs(PI - size)) / (1 << 20), 16 * epsilon * size)
-        slower = 1 - max(Fraction(1, 1 << 20), 16 * epsilon)
+        shift = max(min(size, abs(PI - size)) * APART, 16 * epsilon * size)
+        slower = 1 - max(APART, 16 * epsilon)
         moved = self.theta0 - shift if self.theta0 > 0 else self.theta0 + shift
         return Pendulum(rounding(moved), self.g, self.length, rounding(self.omega0 * slower))
 

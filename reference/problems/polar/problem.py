@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from reference.arithmetic import BALL
+from reference.problem import APART
 from reference.problems.polar.carlson import Carlson
 from reference.problems.polar.central import BODIES, CentralBrachistochrone
 from reference.problems.polar.equations import POINT_MASS
@@ -88,7 +89,7 @@ class PolarBrachistochrone(CentralBrachistochrone):
         return (deep if kappa < m.number(EQUAL) else shallow)(m, kappa, order)
 
     def neighbour(self, rounding: Callable[[Fraction], Fraction], epsilon: Fraction) -> PolarBrachistochrone:
-        """The path whose lowest point is higher by 2^-20 of its distance to 0 or 1, or by 16 roundings."""
+        """The path whose lowest point is higher by 2^-36 of its distance to 0 or 1, or by 16 roundings."""
         z0 = self._lowest()
-        shift = max(min(z0, 1 - z0) / (1 << 20), 16 * epsilon * z0)
+        shift = max(min(z0, 1 - z0) * APART, 16 * epsilon * z0)
         return PolarBrachistochrone(rounding(z0 + shift), r0=self.r0, gm=self.gm)

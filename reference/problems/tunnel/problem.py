@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from reference.exact import exact
+from reference.problem import APART
 from reference.problems.polar.central import BODIES, CentralBrachistochrone, rational_root
 from reference.problems.tunnel.equations import UNIFORM_BALL
 from reference.problems.tunnel.hypocycloid import Hypocycloid
@@ -78,7 +79,7 @@ class Tunnel(CentralBrachistochrone):
         return super().exact_row(row, argument)
 
     def neighbour(self, rounding: Callable[[Fraction], Fraction], epsilon: Fraction) -> Tunnel:
-        """The tunnel whose lowest point is higher by 2^-20 of its distance to 0 or 1, or by 16 roundings."""
+        """The tunnel whose lowest point is higher by 2^-36 of its distance to 0 or 1, or by 16 roundings."""
         z0 = self._lowest()
-        shift = max(min(z0, 1 - z0) / (1 << 20), 16 * epsilon * z0)
+        shift = max(min(z0, 1 - z0) * APART, 16 * epsilon * z0)
         return Tunnel(rounding(z0 + shift), r0=self.r0, g=self.g)
