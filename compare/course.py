@@ -12,7 +12,7 @@ import numpy as np
 from compare.aspects import Aspect, aspect_of, conserves
 from compare.bound import BoundSystem, FormatArithmetic
 from compare.cases import case_of
-from compare.lane import Lane, StartInvariant, sample_steps
+from compare.lane import Lane, sample_steps, start_level
 from compare.precision import precision
 from reference.arithmetic import NUMPY
 
@@ -83,7 +83,7 @@ class Course:
         """The same course from a start close by, whose truncation error is the same and whose rounding is not."""
         return replace(self, problem=self.problem.neighbour(self.fmt.round, self.fmt.exact_epsilon))
 
-    @property
+    @cached_property
     def case(self) -> Case:
         """The problem in a few words."""
         return case_of(self.problem)
@@ -184,14 +184,14 @@ class Course:
     @cached_property
     def level(self) -> float:
         """The invariant at the start."""
-        return float(self.fmt.number(StartInvariant(self.problem)))
+        return float(start_level(self.problem, self.fmt))
 
     def drift(self, states: np.ndarray) -> np.ndarray:
         """(E - E0)/(E0 - Emin) of states [samples, state], computed in the format, as float64.
 
         Not a number where nothing is conserved, or where E0 - Emin is below the range of the format.
         """
-        problem, start = self.problem, self.fmt.number(StartInvariant(self.problem))
+        problem, start = self.problem, start_level(self.problem, self.fmt)
         if not conserves(problem) or not start:
             return np.full(len(states), np.nan)
         parameters = {name: self.fmt.number(value) for name, value in problem.parameters.items()}

@@ -15,7 +15,7 @@ import numpy as np
 from compare.aspects import conserves
 from compare.bound import BoundSystem, plain_system
 from compare.compensated import Compensated
-from compare.lane import Lane, StartInvariant
+from compare.lane import Lane, start_level
 from compare.march import iterations_for, march
 from compare.records import Defect
 from compare.run import exactly
@@ -89,7 +89,7 @@ def _area(function: Any, course: Course) -> float:
     fmt, problem = course.fmt, course.problem
     chosen = np.linspace(0, len(course.times) - 1, STATES).round().astype(int)
     states = np.stack([_rounded(course, chosen, i) for i in range(len(problem.state_names))])
-    values = [fmt.number(course.h), fmt.number(StartInvariant(problem)), *map(fmt.number, problem.parameters.values())]
+    values = [fmt.number(course.h), start_level(problem, fmt), *map(fmt.number, problem.parameters.values())]
     parameters = np.repeat(np.array(values, dtype=fmt.type)[:, None], STATES, axis=1)
     found = function(np.ascontiguousarray(states), pars=parameters)
     after, (a, b, c, d) = found[: len(states)], found[len(states) :]

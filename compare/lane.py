@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import TYPE_CHECKING
+from functools import lru_cache
+from typing import TYPE_CHECKING, Any
 
 from compare.aspects import conserves
 from reference.arithmetic import BALL
@@ -13,9 +14,10 @@ if TYPE_CHECKING:
     import numpy as np
     from flint import arb
 
+    from compare.precision import Precision
     from reference.problem import Problem
 
-__all__ = ["Lane", "March", "StartInvariant", "grain_of", "sample_steps"]
+__all__ = ["Lane", "March", "StartInvariant", "grain_of", "sample_steps", "start_level"]
 
 LONG_BLOCKS = (64, 32, 16)
 LONG_MARCH = 8192
@@ -69,6 +71,12 @@ class StartInvariant:
         parameters = {name: BALL.number(value) for name, value in self.problem.parameters.items()}
         ball: arb = self.problem.invariant(BALL, start, parameters)
         return ball
+
+
+@lru_cache(maxsize=256)
+def start_level(problem: Problem, fmt: Precision) -> Any:
+    """The invariant of a problem at its start as a number of a format, kept."""
+    return fmt.number(StartInvariant(problem))
 
 
 def sample_steps(n: int, count: int) -> tuple[int, ...]:

@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from compare.aspects import conserves
-from compare.lane import Lane, March, StartInvariant, grain_of, sample_steps
+from compare.lane import Lane, March, StartInvariant, grain_of, sample_steps, start_level
 from compare.shape import INLINE_SINE, Shape
 from compare.trace import compile_block, entry_rows, plain_block
 
@@ -110,7 +110,7 @@ def _sorted(method: Method, lanes: Sequence[Lane], fmt: Precision) -> dict[tuple
             raise ValueError(f"{method.name} keeps an invariant, and {lane.problem.name} has none.")
         iterations = iterations_for(method, lane.problem, float(lane.h), fmt.bits)
         grain = grain_of(lane.n)
-        ends_of_blocks = not any(step % grain for step in lane.samples)
+        ends_of_blocks = math.gcd(*lane.samples) % grain == 0
         groups[_Equation.of(lane.problem), grain if ends_of_blocks else 1, iterations].append(i)
     for members in groups.values():
         members.sort(key=lambda i: -lanes[i].n)
@@ -205,10 +205,9 @@ class _Group:
         begins = [lane.start or lane.problem.start for lane in padded]
         starts = [self.fmt.array(begin[i] for begin in begins) for i in range(self.dimension)]
         names = list(padded[0].problem.parameters)
-        invariants = {lane.problem: self.fmt.number(StartInvariant(lane.problem)) for lane in padded}
         parameters = [
             self.fmt.array(lane.h for lane in padded),
-            np.array([invariants[lane.problem] for lane in padded], dtype=self.fmt.type),
+            np.array([start_level(lane.problem, self.fmt) for lane in padded], dtype=self.fmt.type),
             *(self.fmt.array(lane.problem.parameters[name] for lane in padded) for name in names),
         ]
         values = np.stack(parameters)

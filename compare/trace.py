@@ -85,11 +85,13 @@ def compile_block(
     drift: bool = True,
     inline_sine: bool = False,
     brief: bool = False,
+    fast_math: bool = False,
 ) -> Block:
     """Trace ``steps`` steps of a method and compile them.
 
     ``iterations`` is for implicit methods; without ``drift`` the invariant is not followed and its row stays as it was.
-    ``inline_sine``, for doubles, marches faster and compiles slower; ``brief`` compiles faster and marches slower.
+    ``inline_sine``, for doubles, marches faster and compiles slower; ``brief`` compiles faster and marches slower;
+    ``fast_math`` lets the compiler change the order of sums, and is for comparison alone.
 
     Raises:
         TraceError: the compiled block does not agree with the plain steps at random points.
@@ -109,8 +111,8 @@ def compile_block(
         moved = _size(changes) if changes else hy.expression(0.0)
         every += [*state, off, moved]
         largest = (_greater(off, largest[0]) if drift else off), _greater(moved, largest[1])
-    outputs = every if record == "every" else [*state, *largest]
-    options = {**fmt.compiler_options, **({"opt_level": 0} if brief else {})}
+    outputs = list(map(_expression, every if record == "every" else [*state, *largest]))
+    options = {"fast_math": fast_math, **fmt.compiler_options, **({"opt_level": 0} if brief else {})}
     function = hy.cfunc(outputs, vars=[*y, *maxima], batch_size=batch, **options)
     block = Block(function, steps, batch, record)
     _trust(block, method, problem, fmt, iterations)
@@ -119,6 +121,11 @@ def compile_block(
 
 def _variables(names: Sequence[str]) -> tuple[Any, ...]:
     return tuple(hy.expression(name) for name in names)
+
+
+def _expression(value: Any) -> Any:
+    """A remembered slope of a curve's own coordinate is a number of the format, which a block gives as a constant."""
+    return value if isinstance(value, hy.expression) else hy.expression(value)
 
 
 def entry_rows(
