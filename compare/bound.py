@@ -11,6 +11,7 @@ from compare.aspects import conserves
 from reference.arithmetic import BALL, NUMPY, Heyoka
 from reference.compiler import hy
 from reference.dual import Dual, DualArithmetic
+from reference.jet import jet
 
 if TYPE_CHECKING:
     from fractions import Fraction
@@ -85,6 +86,9 @@ class BoundSystem:
 
     def force(self, positions: State) -> State:
         return tuple(self._problem.force(self._m, positions, self._parameters))
+
+    def jet(self, y: State, order: int) -> list[State]:
+        return jet(self._m, lambda m, state: self._problem.derivative(m, state, self._parameters), y, order)
 
     def invariant(self, y: State) -> Any:
         return self.level if not conserves(self._problem) else self._problem.invariant(self._m, y, self._parameters)

@@ -66,6 +66,9 @@ class _ValueSystem:
     def force(self, positions: State) -> State:
         return self._system.force(_values(positions))
 
+    def jet(self, y: State, order: int) -> list[State]:
+        return self._system.jet(_values(y), order)
+
     def invariant(self, y: State) -> Any:
         return self._system.invariant(_values(y))
 

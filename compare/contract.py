@@ -49,6 +49,9 @@ class System(Equation, Protocol):
     def force(self, positions: State) -> State:
         """The rates of the momenta, which depend on the positions alone."""
 
+    def jet(self, y: State, order: int) -> list[State]:
+        """y^(k)/k! for k = 1, ..., order, of the solution through y; what is always zero is the integer 0."""
+
     def invariant(self, y: State) -> Any:
         """The problem's conserved quantity above its least value."""
 

@@ -64,6 +64,7 @@ def describe(method: Method) -> Description:
     """All that is shown of a method."""
     facts = [
         ("family", method.family),
+        *_formula(method),
         *_orders(method),
         ("stages", method.stages),
         *_evaluations(method),
@@ -76,6 +77,12 @@ def describe(method: Method) -> Description:
         ("source", method.source),
     ]
     return Description(method.name, tuple(facts), tuple(_tables(method)))
+
+
+def _formula(method: Method) -> Iterator[tuple[str, str]]:
+    """What a step does, where a method says so in words because it has no table."""
+    if hasattr(method, "formula"):
+        yield "step", method.formula
 
 
 def _orders(method: Method) -> Iterator[tuple[str, Any]]:

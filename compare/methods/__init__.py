@@ -21,6 +21,7 @@ from compare.methods.symplectic import (
     VERLET,
     YOSHIDA4,
 )
+from compare.methods.taylor import TAYLOR
 from reference.names import unknown
 
 if TYPE_CHECKING:
@@ -37,6 +38,7 @@ METHODS: tuple[Method, ...] = (
     *IMPLICIT,
     *CONSERVATIVE,
     *MULTISTEP,
+    *TAYLOR,
 )
 
 DEFAULT: tuple[Method, ...] = (

@@ -85,6 +85,14 @@ def test_a_method_of_nystroms_kind_says_what_it_needs() -> None:
     assert re.search(r"proven order where velocities are not linear +3\n", text)
 
 
+def test_a_method_without_a_table_says_what_a_step_does() -> None:
+    text = " ".join(shown("taylor8").split())
+    assert "step y + h (y[1] + h (y[2] + ... + h y[8])), where (k+1) y[k+1] = [f(y)][k] is the coefficient" in text
+    found = json.loads(shown("taylor20", "json"))
+    assert found["step"].startswith("y + h (y[1] + h (y[2] + ... + h y[20]))")
+    assert (found["proven_order"], found["evaluations_per_step"], found["tables"]) == (20, 20, [])
+
+
 def test_latex_has_the_array_in_mathematics() -> None:
     text = shown("gauss4", "latex")
     assert r"\frac{1}{2} - \frac{\sqrt{3}}{6} & \frac{1}{4} & \frac{1}{4} - \frac{\sqrt{3}}{6} \\" in text

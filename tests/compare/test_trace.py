@@ -50,7 +50,9 @@ def test_a_block_of_every_method_gives_the_plain_steps(method: Method) -> None:
     assert gap_to_plain_steps(method, FLOAT64) < 200 * FLOAT64.epsilon
 
 
-@pytest.mark.parametrize("name", ["rk4", "yoshida4", "implicit_midpoint", "abm4", "bdf2", "cowell4", "gonzalez"])
+@pytest.mark.parametrize(
+    "name", ["rk4", "yoshida4", "implicit_midpoint", "abm4", "bdf2", "cowell4", "gonzalez", "taylor12"]
+)
 @pytest.mark.parametrize("fmt", [*FORMATS, precision("mp:150")], ids=lambda fmt: fmt.name)
 def test_a_block_gives_the_plain_steps_in_every_format(name: str, fmt: Precision) -> None:
     assert gap_to_plain_steps(find(name), fmt) < 200 * fmt.epsilon
