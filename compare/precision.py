@@ -80,8 +80,7 @@ class Precision:
         if self.bits <= 53:
             return self.type(math.ldexp(mantissa, exponent))
         if self.type is np.longdouble:
-            high, low = divmod(mantissa, 1 << 32)
-            return np.ldexp(np.longdouble(high) * 2**32 + np.longdouble(low), exponent)
+            return np.ldexp(_long(mantissa), exponent)
         digits = exact_decimal(Fraction(mantissa) * Fraction(2) ** exponent, self.bits + abs(exponent) + 20)
         return hy.real(digits, self.bits) if self.type is hy.real else self.type(digits)
 
@@ -130,9 +129,17 @@ FORMATS = (
     Precision("float32", 24, np.float32, 64),
     Precision("float64", 53, float, 32),
     Precision("longdouble", np.finfo(np.longdouble).nmant + 1, np.longdouble, 1),
-    Precision("float128", 113, hy.real128, 1),
+    Precision("float128", 113, getattr(hy, "real128", hy.real), 1),  # MPFR's where the compiler has no binary128
 )
 MIN_BITS, MAX_BITS = 24, 4096
+
+
+def _long(whole: int) -> Any:
+    """A whole number that a long double holds, by pieces that any has room for."""
+    if abs(whole) < 1 << 32:
+        return np.longdouble(whole)
+    high, low = divmod(whole, 1 << 32)
+    return _long(high) * 2**32 + np.longdouble(low)
 
 
 def precision(name: str) -> Precision:

@@ -11,7 +11,12 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from compare.algebraic import root
-from compare.precision import FORMATS, Precision, precision
+from compare.course import Course
+from compare.march import march
+from compare.methods import find
+from compare.precision import FORMATS, Precision, _long, precision
+from reference import Pendulum
+from reference.compiler import hy
 
 every_format = pytest.mark.parametrize("fmt", [*FORMATS, precision("mp:200")], ids=lambda fmt: fmt.name)
 rationals = st.fractions(min_value=-1000, max_value=1000, max_denominator=10**9)
@@ -70,3 +75,20 @@ def test_zeros_have_the_full_precision(fmt: Precision) -> None:
 def test_an_unknown_format_is_refused(name: str) -> None:
     with pytest.raises(ValueError, match=f"precision '{name}' is unknown"):
         precision(name)
+
+
+def test_a_long_double_is_made_of_pieces_without_loss() -> None:
+    whole = (1 << 63) + 12345678901
+    for value in (whole, -whole, 3, -3, 0, (1 << 32) - 1, 1 << 32):
+        assert int(_long(value)) == value
+
+
+def test_binary128_without_a_compiler_that_has_it_is_the_same_to_rounding() -> None:
+    """Not every processor's compiler has binary128; MPFR rounds to as many bits."""
+    native, instead = precision("float128"), Precision("float128", 113, hy.real, 1)
+    found = []
+    for fmt in (native, instead):
+        course = Course(Pendulum(1.0), 64, Fraction(2), fmt)
+        (result,) = march(find("rk4"), [course.lane], fmt)
+        found.append(course.errors(result.states))
+    assert np.max(np.abs(found[0] - found[1])) < 64 * native.epsilon
