@@ -3,8 +3,8 @@
 The tables go to stdout, whatever the other options are, so that they can be piped.
 `--out DIR` writes the same tables into a folder as well, `--plots` the figures; what was written is said on stderr.
 `published figures --out DIR` writes the figures of two sources, drawn from the reference.
-Exit codes: 0, 1 where a claim fails, 2 for a mistake of the user's or a disk that cannot be written, 130 when
-interrupted.
+Exit codes: 0, 1 where a claim fails or no solver could be scored, 2 for a mistake of the user's or a disk that cannot
+be written, 130 when interrupted.
 """
 
 from __future__ import annotations
@@ -54,7 +54,7 @@ def _command(words: Sequence[str] | None = None) -> int:
     elif request.command == "published":
         _print(_published(request))
     elif request.command == "solvers":
-        _print(_shown(request, _solver_study, "compare.solvers"))
+        return _solvers(request)
     else:
         _print(_shown(request, _study, "compare"))
     return 0
@@ -132,10 +132,29 @@ def _study(request: Request, progress: Callable[[str], None] | None) -> Any:
         return import_module(home).study(**options, executor=executor)
 
 
-def _solver_study(request: Request, progress: Callable[[str], None] | None) -> SolverStudy:
-    from compare.studies import solvers
+def _solvers(request: Request) -> int:
+    """Print a study of solvers; where none of them could be scored, that is a failure, of which the tables say why."""
+    studies: list[SolverStudy] = []
 
-    return solvers.study(**request.options, progress=progress)
+    def kept(request: Request, progress: Callable[[str], None] | None) -> SolverStudy:
+        studies.append(_solver_study(request, progress))
+        return studies[-1]
+
+    _print(_shown(request, kept, "compare.solvers"))
+    if studies[-1].scored:
+        return 0
+    print("error: none of these solvers could be scored; the tables say why.", file=sys.stderr)
+    return 1
+
+
+def _solver_study(request: Request, progress: Callable[[str], None] | None) -> SolverStudy:
+    """The study, on a process pool where there is a core for it; a pool begins when the first task comes to it."""
+    from compare.studies import solvers
+    from reference.executors import processes
+
+    others = (os.cpu_count() or 1) - 1
+    with processes(others) if others else contextlib.nullcontext() as executor:
+        return solvers.study(**request.options, progress=progress, executor=executor)
 
 
 def _report(request: Request) -> str:
@@ -154,16 +173,15 @@ def _report(request: Request) -> str:
 
 
 def _published(request: Request) -> str:
-    """The tables that are named, or all; where it is the figures that are named, they are written."""
+    """The tables that are named, or all; where figures are named, they are written."""
     from compare.published import show
     from compare.published.entry import reproduce
 
-    target = request.options["figures"]
+    names, target = request.options["names"], request.options["figures"]
+    found = reproduce(names) if names or target is None else []
     if target is not None:
         _draw_published(request, target)
-        if not request.options["names"]:
-            return ""
-    return show.render(reproduce(request.options["names"]), request.form, _width())
+    return show.render(found, request.form, _width()) if found else ""
 
 
 def _draw_published(request: Request, target: str) -> None:
@@ -171,7 +189,7 @@ def _draw_published(request: Request, target: str) -> None:
     from compare.output import folder
 
     with folder(target) as results:
-        results.write(files())
+        results.write(files(request.options["drawn"]))
     if not request.quiet:
         print(f"wrote {', '.join(results.names)} into {results.target}", file=sys.stderr)
 

@@ -110,27 +110,27 @@ class Course:
         return largest
 
     @cached_property
-    def state_roundings(self) -> np.ndarray:
-        """How far N roundings of eight units can lead each component, carried along as the exact motion carries them.
+    def led(self) -> np.ndarray:
+        """How far one rounding leads each component, carried along as the exact motion carries it.
 
         The exact motion's growth is that of the distance between this course and its neighbour.
         """
         gap = np.max(np.abs(self.truth[:, :, 0] - self.neighbour.truth[:, :, 0]), axis=0) / self.sizes
-        led: np.ndarray = 8 * self.n * self.fmt.epsilon * (1 + gap / (self._apart or 1.0)) * self.sizes
+        led: np.ndarray = self.fmt.epsilon * (1 + gap / (self._apart or 1.0)) * self.sizes
         return led
 
     @cached_property
-    def roundings(self) -> float:
+    def place_led(self) -> float:
         """The same of the place; along a curve also what a rounding of the coordinate makes of it."""
-        aspect = self.aspect
-        counted = float(np.max((self.state_roundings / self.units)[list(aspect.places)]))
-        if aspect.along is not None:
-            along = self.sizes[aspect.along] * float(np.max((self.sizes / self.units)[list(aspect.places)]))
-            counted += 8 * self.n * self.fmt.epsilon * float(np.max(self._slopes)) * along
-        return counted
+        places, along = list(self.aspect.places), self.aspect.along
+        led = float(np.max((self.led / self.units)[places]))
+        if along is not None:
+            size = self.sizes[along] * float(np.max((self.sizes / self.units)[places]))
+            led += self.fmt.epsilon * float(np.max(self._slopes)) * size
+        return led
 
     @cached_property
-    def drift_roundings(self) -> float:
+    def drift_led(self) -> float:
         """The same of the change of the conserved quantity, relative to its start; NaN where there is none.
 
         A rounding of a component y changes E by |y dE/dy| of it, which the exact motion neither lessens nor lets grow.
@@ -142,7 +142,7 @@ class Course:
         system = BoundSystem(self.problem, FormatArithmetic(fmt), parameters, fmt, self.level)
         state = tuple(self.truth[:, :, 0].T)
         changes = sum(np.abs(y * slope) for y, slope in zip(state, system.gradient(state), strict=True))
-        return 8 * self.n * self.fmt.epsilon * float(np.max(changes)) / abs(self.level)
+        return self.fmt.epsilon * float(np.max(changes)) / abs(self.level)
 
     @cached_property
     def _slopes(self) -> np.ndarray:

@@ -20,6 +20,8 @@ __all__ = ["fit_order", "slope_with_interval", "student_95"]
 
 SLOPE_TOLERANCE = 0.05
 MIN_CELLS = 3
+SELDOM = 0.25
+"""Rounding is mostly an eighth of its bound."""
 NO_POWER = 0.003
 """By about so much of itself an error of the asymptotic range departs from a power of h."""
 
@@ -43,7 +45,7 @@ def fit_order(method: Method, cells: Sequence[Cell]) -> FittedOrder:
         fitted, rounding = _weighted_slope(np.array(x[first:last]), np.array(y[first:last]), chosen)
         departures = [abs(slope - fitted) for slope in slopes[first : last - 1]]
         spread = max(departures)
-        spread_rounding = rounding + chosen[1 + departures.index(spread)].order_rounding
+        spread_rounding = rounding + SELDOM * chosen[1 + departures.index(spread)].order_rounding
     return FittedOrder(
         method=method.name,
         case=cells[0].case,
@@ -60,9 +62,9 @@ def fit_order(method: Method, cells: Sequence[Cell]) -> FittedOrder:
 def _weighted_slope(x: np.ndarray, y: np.ndarray, cells: Sequence[Cell]) -> tuple[float, float]:
     """The least-squares slope of y = -log(error) against x, and what rounding can make of it.
 
-    A cell weighs the less the more of it may be rounding.
+    A cell weighs the less the more of it may be rounding, which of several cells is seldom more than SELDOM.
     """
-    relative = np.array([cell.rounding / cell.max_error for cell in cells])
+    relative = np.array([SELDOM * cell.rounding / cell.max_error for cell in cells])
     weights = 1 / (NO_POWER**2 + relative**2)
     centred = x - weights @ x / weights.sum()
     shares = weights * centred / (weights * centred @ centred)

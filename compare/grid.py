@@ -105,10 +105,10 @@ def markdown(section: Section) -> str:
 
 
 def latex(section: Section) -> str:
-    """The section as one LaTeX table a grid, with booktabs rules and a caption."""
+    """The section as one LaTeX table a grid, with booktabs rules and a caption; without a grid a paragraph."""
     caption = _latex_cell(section.title)
     note = f" {_latex_cell(section.note)}" if section.note else ""
-    parts = []
+    parts = [] if section.grids else [f"{caption}.{note}", ""]
     for number, grid in enumerate(section.grids, start=1):
         of = f" ({number} of {len(section.grids)})" if len(section.grids) > 1 else ""
         suffix = f"-{number}" if len(section.grids) > 1 else ""

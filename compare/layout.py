@@ -8,12 +8,12 @@ from typing import TYPE_CHECKING, Any
 
 from compare import grid
 from compare.grid import Column, Grid
-from compare.records import FLOOR_FACTOR
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Sequence
 
 __all__ = [
+    "DOUBT",
     "ROUNDING_NOTE",
     "by_steps",
     "decided",
@@ -28,9 +28,9 @@ __all__ = [
     "steps_of",
 ]
 
-ROUNDING_NOTE = f"* means rounding: within {FLOOR_FACTOR} times what it may have made of the number"
-DOUBT = 2
-"""What another machine makes of rounding stays within this factor of what this one tells of it."""
+DOUBT = "~"
+"""Before a digit that rounding may change."""
+ROUNDING_NOTE = "* means rounding: it may have made half of the number or more; ~ that it may change the last digit"
 
 
 def methods_of(records: Iterable[Any]) -> list[str]:
@@ -137,25 +137,26 @@ def scientific(value: float, rounding: float = 0.0) -> str:
 
 
 def decided(value: float, rounding: float, forms: Sequence[str]) -> str:
-    """A number in the first of the forms in which nothing within DOUBT of rounding reads otherwise, or else the last.
+    """A number in the first of the forms in which nothing that rounding may have made of it reads otherwise.
 
-    So a table reads the same wherever it is made, but where rounding is all there is.
+    So a table reads the same wherever it is made.  In the last form, where that does too, it is marked with DOUBT.
     """
     if not math.isfinite(value):
         return str(value)
-    off = DOUBT * rounding if math.isfinite(rounding) else 0.0
+    off = rounding if math.isfinite(rounding) else 0.0
     same = (form for form in forms if format(value - off, form) == format(value + off, form))
-    return format(value, next(same, forms[-1]))
+    form = next(same, None)
+    return DOUBT + format(value, forms[-1]) if form is None else format(value, form)
 
 
 def starred(value: float, rounding: float) -> str:
     """``scientific``, with a mark where rounding decides."""
-    return scientific(value, rounding) + "*" * is_rounding(value, rounding)
+    return f"{value:.0e}*" if is_rounding(value, rounding) else scientific(value, rounding)
 
 
 def is_rounding(value: float, rounding: float) -> bool:
-    """Whether a number is within FLOOR_FACTOR of rounding; a zero that nothing bounds is a zero."""
-    return bool(abs(value) <= FLOOR_FACTOR * rounding and rounding > 0)
+    """Whether rounding may have made half of a number or more; a zero that nothing bounds is a zero."""
+    return bool(abs(value) <= 2 * rounding and rounding > 0)
 
 
 def digits(value: float, form: str) -> str:

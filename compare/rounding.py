@@ -1,11 +1,12 @@
 """What rounding makes of the errors of a march: a bound for each, and the cells where it is all there is.
 
-A course and its neighbour, from a start close by, err differently by rounding alone, as the method and the problem
-carry it along.  What is told so at one number of steps bounds rounding at others, which grows with N at worst; so does
-the count of the roundings, carried along as the exact motion carries them.  Few neighbours are marched, and short ones.
+Roundings add up as random steps do: with the root of their number, each carried along as the exact motion carries it.
+That is a bound where the method, or a motion in more directions, does not carry them further.  Whether it does is told
+by a neighbour, a course from a start close by: the two err differently by rounding alone.  The bound is a matter of
+the problem, the method and N, so that it is the same on every machine.
 
-A cell is on the floor within FLOOR_FACTOR of rounding, and so is every finer one; but a difference that N roundings
-cannot account for is of a step too large, not of rounding.
+A cell is on the floor within FLOOR_FACTOR of what a neighbour tells, and so is every finer one; but a difference that N
+roundings cannot account for is of a step too large, not of rounding.
 """
 
 from __future__ import annotations
@@ -31,14 +32,16 @@ if TYPE_CHECKING:
 
 __all__ = ["Rounding", "roundings_of"]
 
-SAFE = 4
-"""What one march tells of rounding holds for another within this factor."""
+STRIDE = 4
+"""Where roundings are carried further, the bound grows by so much, as often as it takes."""
 PROBE = 64
 """The first neighbours to be marched have at most one such part of the steps of the longest march."""
-UNDECIDED = 4000
+UNDECIDED = 2000
 """Within this factor of rounding not all of three digits are decided."""
 ENERGY_ROUNDINGS = 4
 """In computing an energy, of its own size."""
+COUNTED = 8
+"""Roundings of a step, at worst and all in one direction, by which a difference is accounted for."""
 
 
 @dataclass(frozen=True)
@@ -49,7 +52,7 @@ class Rounding:
         place: of the error of the place, in the unit of ``Course.place``.
         state: of the error of each component, as it is.
         drift: of the change of the conserved quantity, relative to its start; NaN where nothing is conserved.
-        floor: whether the error of the place is rounding: within FLOOR_FACTOR of it.
+        floor: whether the error of the place is rounding: within FLOOR_FACTOR of what a neighbour tells.
     """
 
     place: float
@@ -63,8 +66,8 @@ def roundings_of(
 ) -> list[Rounding]:
     """What rounding made of each march, given its errors [samples, state]; each problem's courses by N.
 
-    A neighbour is marched where a problem's numbers are not decided by the count of roundings: one of few steps, which
-    tells of the others; then where the error is so small that it may be rounding, and no coarser one is.
+    A neighbour is marched where rounding may change the digits of a problem's numbers: one of few steps, which tells of
+    the others; then where the error is so small that it may be rounding, and no coarser one is.
     """
     told = _Told(method, courses, marches, errors)
     lanes = [course.lane for course in courses]
@@ -85,10 +88,10 @@ class _Told:
         self, method: Method, courses: Sequence[Course], marches: Sequence[March], errors: Sequence[np.ndarray]
     ) -> None:
         self.courses, self.marches, self.errors = courses, marches, errors
-        self.power = 2 if method.family == "multistep" else 1  # what is remembered may let roundings grow faster
         self.sizes = [float(np.max(course.place(error))) for course, error in zip(courses, errors, strict=True)]
-        self.counted = [_counted(method, course) for course in courses]
-        self.measured: dict[int, np.ndarray] = {}
+        operations = max(method.evaluations(0)[0], 1) + 1
+        self.bounds = [_random_steps(course, operations) for course in courses]
+        self.measured: set[int] = set()
         self.floors = [False] * len(courses)
         self.places: dict[Problem, list[int]] = {}
         for i, course in enumerate(courses):
@@ -111,53 +114,39 @@ class _Told:
         return i not in self.measured and not self.floors[i] and self._may_be_rounding(i, FLOOR_FACTOR)
 
     def _may_be_rounding(self, i: int, factor: float) -> bool:
-        return self.sizes[i] <= factor * float(self.bound(i)[0])
+        return self.sizes[i] <= factor * float(self.bounds[i][0])
 
     def learn(self, i: int, neighbour: Course, result: March) -> None:
-        """Hold a neighbour against its course."""
+        """Hold a neighbour against its course, and widen the bounds of the problem where it tells of more."""
         course, others = self.courses[i], neighbour.errors(result.states)
         noise = _noise(course, self.errors[i], others)
         drifts = course.drift(self.marches[i].states) - neighbour.drift(result.states)
-        drift = float(np.max(np.abs(drifts))) + ENERGY_ROUNDINGS * course.fmt.epsilon
-        self.measured[i] = np.array([noise, drift, *np.max(np.abs(self.errors[i] - others), axis=0)])
+        row = np.array([noise, np.max(np.abs(drifts)), *np.max(np.abs(self.errors[i] - others), axis=0)])
+        self.measured.add(i)
         members = self.places[course.problem]
-        if self.sizes[i] <= FLOOR_FACTOR * noise and noise <= course.roundings:
-            for j in members[members.index(i) :]:
-                self.floors[j] = True
-
-    def bound(self, i: int) -> np.ndarray:
-        """The smaller of what is counted and of what the two nearest courses tell that have been measured."""
-        known = [j for j in self.places[self.courses[i].problem] if j in self.measured]
-        nearest = sorted(known, key=lambda j: abs(math.log(self.courses[j].n / self.courses[i].n)))[:2]
-        rows = [self._reach(i, j) * self.measured[j] for j in nearest]
-        bound: np.ndarray = np.fmin(self.counted[i], np.max(rows, axis=0)) if rows else self.counted[i]
-        return bound
-
-    def _reach(self, i: int, j: int) -> float:
-        """By how much rounding in course i may be larger than what course j tells: it grows as N's root, at worst as N."""
-        more = self.courses[i].n / self.courses[j].n
-        return float(max(SAFE * max(more, 1.0) ** 0.5, more**self.power)) if i != j else 1.0
+        if noise <= COUNTED * course.n * course.place_led:
+            excess = float(np.nanmax(row / self.bounds[i]))
+            while 1 < excess < math.inf:
+                excess /= STRIDE
+                for j in members:
+                    self.bounds[j] = STRIDE * self.bounds[j]
+            if self.sizes[i] <= FLOOR_FACTOR * noise:
+                for j in members[members.index(i) :]:
+                    self.floors[j] = True
 
     def roundings(self) -> list[Rounding]:
         """What has been found."""
-        rows = map(self.bound, range(len(self.courses)))
         return [
             Rounding(float(row[0]), row[2:], float(row[1]) if conserves(course.problem) else math.nan, floor)
-            for course, row, floor in zip(self.courses, rows, self.floors, strict=True)
+            for course, row, floor in zip(self.courses, self.bounds, self.floors, strict=True)
         ]
 
 
-def _counted(method: Method, course: Course) -> np.ndarray:
-    """Bounds by the number of the roundings: half a unit for each evaluation in a step and for their sum.
-
-    Where equations are solved in a step, or earlier steps remembered, there are more, and ``Course`` has a bound for
-    all.
-    """
-    evaluations = method.evaluations(0)[0] if method.family != "implicit" else 0
-    plain = method.opening == 0 and method.jacobians(1) == 0 and evaluations > 0
-    share = (evaluations + 1) / 2 / 8 if plain else 1.0
-    place, drift, state = course.roundings, course.drift_roundings, course.state_roundings
-    return np.array([share * place, share * drift + ENERGY_ROUNDINGS * course.fmt.epsilon, *(share * state)])
+def _random_steps(course: Course, operations: int) -> np.ndarray:
+    """A row of bounds for roundings of so many operations a step that add up as random steps do."""
+    steps = math.sqrt(course.n * operations)
+    drift = steps * course.drift_led + ENERGY_ROUNDINGS * course.fmt.epsilon
+    return np.array([steps * course.place_led, drift, *(steps * course.led)])
 
 
 def _noise(course: Course, errors: np.ndarray, others: np.ndarray) -> float:

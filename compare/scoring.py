@@ -15,7 +15,7 @@ from compare.compensated import compensate
 from compare.course import SAMPLES, Course
 from compare.extras import GROWTH_SAMPLES, Found, score
 from compare.fit import fit_order
-from compare.methods import DEFAULT, find
+from compare.methods import DEFAULT, METHODS, find
 from compare.precision import precision as find_precision
 from compare.sharing import shared
 from compare.wanted import DEFAULT_SCORES, EXTRAS, chosen_scores
@@ -31,10 +31,12 @@ if TYPE_CHECKING:
     from compare.precision import Precision
     from compare.records import Case, Cell, Drift, FittedOrder
 
-__all__ = ["DEFAULT_N", "Scored", "energy_drift", "error_vs_n", "score_all", "some"]
+__all__ = ["DEFAULT_N", "Scored", "energy_drift", "error_vs_n", "named", "score_all", "some"]
 
 DEFAULT_N = tuple(2**k for k in range(7, 21))
 MAX_N = 10**10
+ALL = "all"
+"""What asks for every method."""
 
 
 @dataclass(frozen=True)
@@ -117,7 +119,7 @@ def score_all(
 
     Args:
         problems: problems of any families.
-        methods: names or aliases; ``compare.methods.DEFAULT`` if None.
+        methods: names or aliases, or "all" for every one; ``compare.methods.DEFAULT`` if None.
         n: numbers of steps, each a positive integer.
         t_end: end of the march, in s or the problem's own unit; or a list of one for each problem.
         precision: a format of ``compare.precision``.
@@ -134,7 +136,7 @@ def score_all(
     if not all(isinstance(problem, Problem) for problem in problems):
         raise TypeError(f"problems holds a {type(problems[0]).__name__}; problems such as Pendulum(1.0) are accepted.")
     fmt, wanted = find_precision(precision), chosen_scores(some(scores, "scores"))
-    chosen = DEFAULT if methods is None else tuple(dict.fromkeys(find(name) for name in some(methods, "methods")))
+    chosen = named(methods)
     if compensated:
         twins = [(compensate(method),) if compensated is True else (method, compensate(method)) for method in chosen]
         chosen = tuple(method for both in twins for method in both)
@@ -157,6 +159,19 @@ def score_all(
         for problem in problems
     }
     return Scored(chosen, tuple(problems), ends, fmt, wanted, samples, found, left_out)
+
+
+def named(methods: Sequence[str] | None) -> tuple[Method, ...]:
+    """The methods of these names or aliases, each once; "all" stands for every one, and None for the default ones.
+
+    Raises:
+        ValueError: a name is unknown, or there is none.
+        TypeError: ``methods`` is one name.
+    """
+    if methods is None:
+        return DEFAULT
+    found = (METHODS if str(name).strip().lower() == ALL else (find(name),) for name in some(methods, "methods"))
+    return tuple(dict.fromkeys(method for several in found for method in several))
 
 
 def fits(method: Method, problem: Problem) -> bool:

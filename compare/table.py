@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 
 from compare import grid, machine, rendering, table_extras
 from compare.grid import Column, Grid, Section
-from compare.layout import by_steps, decided, digits, of_steps, scientific, starred
+from compare.layout import DOUBT, by_steps, decided, digits, of_steps, scientific, starred
 from compare.rendering import FORMATS, Tables
 
 if TYPE_CHECKING:
@@ -23,6 +23,7 @@ if TYPE_CHECKING:
 __all__ = ["FORMATS", "TABLES", "files", "render", "sections"]
 
 _NAN_NOTE = "nan means overflow, or an implicit method whose stages do not converge at this h"
+_DOUBT_NOTE = f"{DOUBT} means that rounding may change the last digit; digits that it may change else are not printed"
 _FLOOR_NOTE = "* means rounding, not order: within ten times the rounding floor of the engine"
 
 
@@ -78,6 +79,7 @@ def _error_section(cells: Sequence[Cell], declared: dict[str, int], width: int) 
             note
             for note, applies in (
                 (_FLOOR_NOTE, any(cell.floor for cell in cells)),
+                (_DOUBT_NOTE, any(DOUBT in text for cell in cells for text in _error_cell(cell))),
                 (_NAN_NOTE, any(math.isnan(cell.max_error) for cell in cells)),
             )
             if applies
@@ -86,7 +88,9 @@ def _error_section(cells: Sequence[Cell], declared: dict[str, int], width: int) 
 
 
 def _error_cell(cell: Cell) -> tuple[str, str]:
-    return scientific(cell.max_error, cell.rounding), "*" if cell.floor else _local_order(cell)
+    if cell.floor:
+        return digits(cell.max_error, ".0e"), "*"
+    return scientific(cell.max_error, cell.rounding), _local_order(cell)
 
 
 def _order_section(fits: Sequence[FittedOrder]) -> Section:

@@ -90,6 +90,9 @@ def _phase_cell(phase: Phase) -> list[str]:
 
 def _growth(study: Study, case: Case, declared: dict[str, int], width: int) -> Iterator[Section]:
     found = [growth for growth in study.growth or () if growth.case == case]
+    if found and all(math.isnan(growth.exponent) for growth in found):
+        yield Section(name=f"growth-{grid.slug(case.label)}", title=f"Growth, {case.label}: {_no_law(case)}", grids=())
+        return
     for quantity in QUANTITIES:
         records = [growth for growth in found if growth.quantity == quantity]
         if records:
@@ -103,6 +106,13 @@ def _growth(study: Study, case: Case, declared: dict[str, int], width: int) -> I
 
 
 _WORDS = {"place": "error of the place", "phase": "error of the phase", "energy": "change of the conserved quantity"}
+
+
+def _no_law(case: Case) -> str:
+    """What a law takes, where none of a case's has it."""
+    end = "--tau-end" if ("form", "time") in case.inputs else "--t-end"
+    periods = f"32 periods (a later end of the march: {end}), " if case.cycle == "period" else ""
+    return f"no law can be told; one takes at least {periods}128 steps, and errors that are numbers"
 
 
 def _growth_cells(growth: Growth) -> list[str]:

@@ -1,37 +1,36 @@
-"""Which figures there are, in the order of the sources' pages."""
+"""Which figures there are, by the names of their files, in the order of the sources' pages."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from compare.figures import curve, descents, pendulum, polar, snapshots
+from compare.figures import curve, descents, motion, pendulum, polar
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from compare.figures.drawing import Drawing
-    from compare.figures.snapshots import Snapshots
 
 __all__ = ["FIGURES"]
 
-FIGURES: tuple[Callable[[], Drawing | Snapshots], ...] = (
-    pendulum.figure2,
-    pendulum.figure3,
-    pendulum.figure4,
-    pendulum.figure5,
-    pendulum.figure6,
-    pendulum.figure7,
-    pendulum.figure10,
-    pendulum.figure11,
-    curve.figure6,
-    curve.figure7,
-    snapshots.figure8,
-    descents.figure9,
-    descents.figure10,
-    descents.figure11,
-    descents.figure12,
-    snapshots.figure13,
-    polar.figure14,
-    polar.figure15,
-)
+FIGURES: dict[str, Callable[[], Drawing | motion.Motion]] = {
+    "report-figure-2": pendulum.figure2,
+    "report-figure-3": pendulum.figure3,
+    "report-figure-4": pendulum.figure4,
+    "report-figure-5": pendulum.figure5,
+    "report-figure-6": pendulum.figure6,
+    "report-figure-7": pendulum.figure7,
+    "report-figure-10": pendulum.figure10,
+    "report-figure-11": pendulum.figure11,
+    "thesis-figure-6": curve.figure6,
+    "thesis-figure-7": curve.figure7,
+    "thesis-figure-8": motion.figure8,
+    "thesis-figure-9": descents.figure9,
+    "thesis-figure-10": descents.figure10,
+    "thesis-figure-11": descents.figure11,
+    "thesis-figure-12": descents.figure12,
+    "thesis-figure-13": motion.figure13,
+    "thesis-figure-14": polar.figure14,
+    "thesis-figure-15": polar.figure15,
+}
 """What computes each."""

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 from decimal import Decimal
 from typing import TYPE_CHECKING
 
-from compare.published import curve, pendulum
-from compare.published.source import tables
+from compare.published import curve, forms, pendulum
+from compare.published.source import figures, tables
 from reference.names import unknown
 
 if TYPE_CHECKING:
@@ -17,8 +17,8 @@ if TYPE_CHECKING:
 
 __all__ = ["Entry", "Reproduction", "reproduce"]
 
-REPRODUCED = pendulum.REPRODUCED | curve.REPRODUCED
-EXACT = pendulum.EXACT | curve.EXACT
+REPRODUCED = pendulum.REPRODUCED | curve.REPRODUCED | forms.REPRODUCED
+EXACT = pendulum.EXACT | curve.EXACT | forms.EXACT
 
 
 @dataclass(frozen=True)
@@ -77,7 +77,7 @@ def reproduce(names: Sequence[str] = ()) -> list[Reproduction]:
     known = {table.name: table for table in tables()}
     for name in names:
         if name not in known:
-            raise ValueError(unknown("table", name, list(known)))
+            raise ValueError(unknown("table", name, list(known), [figure.name for figure in figures()]))
     return [Reproduction(known[name], tuple(_entries(known[name]))) for name in dict.fromkeys(names or known)]
 
 

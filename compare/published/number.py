@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
     from flint import arb
 
-__all__ = ["Enclosed", "Exact", "Number", "double"]
+__all__ = ["Enclosed", "Exact", "Number", "Scientific", "double"]
 
 SPARE_BITS = 64
 
@@ -40,6 +40,17 @@ class Exact:
 def double(value: float) -> Exact:
     """A double at its exact value."""
     return Exact(Fraction(value))
+
+
+@dataclass(frozen=True)
+class Scientific:
+    """A double that may be far below 1, such as an error."""
+
+    value: float
+
+    def fixed(self, places: int) -> str:
+        """A digit, so many places, and a power of ten."""
+        return f"{self.value:.{places}e}"
 
 
 @dataclass(frozen=True)

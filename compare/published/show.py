@@ -23,8 +23,10 @@ __all__ = ["FIELDS", "render"]
 
 FIELDS = ("item", "row", "column", "published", "reproduced", "exact", "off_by", "note")
 LABELS = ("published", "reproduced", "exact", "off by")
+NOT_PRINTED = ("reproduced", "exact")
+"""What is shown of a column that the source does not print."""
 LEGEND = (
-    "[ ] marks the digits from the first that is not the published one; "
+    "[ ] marks the digits from the first that is not the published one, or where none is published the reproduced one; "
     "off by: reproduced less published, in units of the last printed digit; ! marks a published digit that is wrong."
 )
 
@@ -68,10 +70,11 @@ def _heading(found: Sequence[Reproduction], form: str, width: int) -> str:
 
 def _section(one: Reproduction, form: str, width: int) -> Section:
     table = one.table
-    notes = [f"{one.summary}.", *([f"{table.note}."] if table.note else []), *_notes(one)]
+    page = [f"The page is inferred: {table.inferred}."] if table.inferred else []
+    notes = [f"{one.summary}.", *([f"{table.note}."] if table.note else []), *_notes(one), *page]
     return Section(
         name=f"published-{table.name}",
-        title=f"{table.item.capitalize()}, page {table.page}: {table.title}",
+        title=f"{table.cited}: {table.title}",
         grids=tuple(_grids(one, width)),
         note="\n".join(textwrap.fill(note, width, subsequent_indent="  ") for note in notes)
         if form == "text"
@@ -109,18 +112,23 @@ def _grids(one: Reproduction, width: int) -> list[Grid]:
 def _grid(one: Reproduction, names: Sequence[str]) -> Grid:
     table = one.table
     entries = {(entry.column, entry.row): entry for entry in one.entries}
+    printed = {column.name: bool(column.printed) for column in table.columns}
     head = Column(f"{table.row_name} [{table.row_units}]" if table.row_units else table.row_name)
-    columns = (head, *(Column(label, name) for name in names for label in LABELS))
-    rows = tuple((row, *(cell for name in names for cell in _cells(entries.get((name, row))))) for row in table.rows)
+    labels = {name: LABELS if printed[name] else NOT_PRINTED for name in names}
+    columns = (head, *(Column(label, name) for name in names for label in labels[name]))
+    rows = tuple(
+        (row, *(cell for name in names for cell in _cells(entries.get((name, row)), len(labels[name]))))
+        for row in table.rows
+    )
     return Grid(columns, rows)
 
 
-def _cells(entry: Entry | None) -> tuple[str, ...]:
-    """The four cells of an entry, with the digits marked that differ."""
+def _cells(entry: Entry | None, count: int) -> tuple[str, ...]:
+    """The cells of an entry, with the digits marked that differ."""
     if entry is None:
-        return ("",) * len(LABELS)
+        return ("",) * count
     if entry.published is None:
-        return "-", entry.reproduced, _marked(entry.exact, entry.reproduced), "-"
+        return entry.reproduced, _marked(entry.exact, entry.reproduced)
     return (
         entry.published + ("!" if entry.wrong else ""),
         _marked(entry.reproduced, entry.published),

@@ -1,4 +1,7 @@
-"""The data file: what was printed, as printed, with its page, and by what each column is computed again."""
+"""The data file: what was printed, as printed, with its page, and by what each column is computed again.
+
+A page that no contents or list of figures prints is inferred, and the file says from what.
+"""
 
 from __future__ import annotations
 
@@ -9,7 +12,9 @@ from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
-__all__ = ["Column", "Table", "sources", "tables"]
+from reference.names import unknown
+
+__all__ = ["Column", "Figure", "Table", "figure", "figures", "sources", "tables"]
 
 DATA = Path(__file__).with_name("published.toml")
 
@@ -22,6 +27,7 @@ class Column:
         name: what it is called here.
         by: what computes it; a key of the table's module.
         method, step: of a march, its method and step size.
+        form: of a march along a curve, the slope that is marched.
         claims_exact: whether it is given as a solution of the equation, to every digit printed.
         printed: the entries as printed, none where the source does not print them.
         places: decimal places of an entry that is not printed.
@@ -33,6 +39,7 @@ class Column:
     by: str
     method: str = ""
     step: Fraction = Fraction(0)
+    form: str = ""
     claims_exact: bool = False
     printed: tuple[str, ...] = ()
     places: int = 0
@@ -50,6 +57,7 @@ class Table:
         source: whose it is, a key of ``sources()``.
         item: what it is called in records, such as "report table 9".
         page: where it is printed.
+        inferred: from what that is known, where the source does not print it.
         title: what its numbers are, with their unit.
         row_name, row_units: what tells its rows apart.
         rows: that quantity as printed.
@@ -72,6 +80,12 @@ class Table:
     parameters: dict[str, str] = field(hash=False)
     note: str
     columns: tuple[Column, ...]
+    inferred: str = ""
+
+    @property
+    def cited(self) -> str:
+        """The item with its page."""
+        return _cited(self)
 
     def __post_init__(self) -> None:
         for column in self.columns:
@@ -79,6 +93,33 @@ class Table:
                 raise ValueError(
                     f"{self.item}, {column.name}: {len(column.printed)} entries; {len(self.rows)} are accepted."
                 )
+
+
+@dataclass(frozen=True)
+class Figure:
+    """A figure of a source that is drawn again.
+
+    Attributes:
+        item, page, inferred: as a table's.
+    """
+
+    item: str
+    page: int
+    inferred: str = ""
+
+    @property
+    def name(self) -> str:
+        """The name of its files, and as the command line spells it."""
+        return self.item.replace(" ", "-")
+
+    @property
+    def cited(self) -> str:
+        """The item with its page."""
+        return _cited(self)
+
+
+def _cited(one: Table | Figure) -> str:
+    return f"{one.item.capitalize()}, page {one.page}{' (inferred)' if one.inferred else ''}"
 
 
 @lru_cache(maxsize=1)
@@ -95,6 +136,24 @@ def sources() -> dict[str, str]:
 def tables() -> tuple[Table, ...]:
     """The tables in the order of the file."""
     return tuple(_table(dict(values)) for values in _read()["tables"])
+
+
+@lru_cache(maxsize=1)
+def figures() -> tuple[Figure, ...]:
+    """The figures in the order of the sources' pages."""
+    return tuple(Figure(**values) for values in _read()["figures"])
+
+
+def figure(name: str) -> Figure:
+    """The figure of this name.
+
+    Raises:
+        ValueError: there is none.
+    """
+    known = {one.name: one for one in figures()}
+    if name not in known:
+        raise ValueError(unknown("figure", name, known))
+    return known[name]
 
 
 def _table(values: dict[str, Any]) -> Table:

@@ -23,12 +23,18 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     """Add them to a parser."""
     several: dict[str, Any] = {"action": "append", "metavar": "A,B"}
     parser.add_argument("--problems", **several, help="families of problems (default all); may repeat")
-    parser.add_argument("--amplitudes", **several, help="how far from rest they start (default: each family's own)")
-    parser.add_argument("--methods", **several, help="methods by name (default: a dozen), or none; may repeat")
+    parser.add_argument(
+        "--amplitudes",
+        **several,
+        help="how far from rest they start, or curves of descents by name (default: each family's own)",
+    )
+    parser.add_argument("--methods", **several, help="methods by name (default: a dozen), or all, or none; may repeat")
     parser.add_argument("--solvers", **several, help="solvers or packages by name (default all), or none; may repeat")
     parser.add_argument("--n", **several, help="numbers of steps (default 128, 256, ... 131072); may repeat")
     parser.add_argument("--rtol", **several, help="tolerances (default 1e-3, 1e-4, ... 1e-13); may repeat")
-    parser.add_argument("--t-end", metavar="T", help="the last time in s (default 10)")
+    parser.add_argument(
+        "--t-end", metavar="T", help="the last time in s (default 10); curves and descents end where they do"
+    )
     parser.add_argument("--max-evaluations", metavar="N", help="granted to a solver for one answer (default 200000)")
     parser.add_argument("--jobs", metavar="N", help="how many at a time (default: all processors)")
     parser.add_argument("--executor", default="process", metavar="NAME", help="process, dask:ADDRESS or mpi")
@@ -54,7 +60,7 @@ def options(known: argparse.Namespace) -> dict[str, Any]:
         name: reading.several(name, getattr(known, name), read)
         for name, read in (
             ("problems", reading.text),
-            ("amplitudes", reading.number),
+            ("amplitudes", _amplitude),
             ("methods", reading.text),
             ("solvers", reading.text),
             ("n", reading.whole),
@@ -69,3 +75,8 @@ def options(known: argparse.Namespace) -> dict[str, Any]:
         given["max_evaluations"] = reading.whole(known.max_evaluations, "max-evaluations", "number of evaluations")
     jobs = os.cpu_count() or 1 if known.jobs is None else reading.whole(known.jobs, "jobs", "number of processes")
     return {"plan": given, "jobs": jobs, "executor": known.executor}
+
+
+def _amplitude(piece: str, name: str) -> float | str:
+    """A number, or the name of a curve."""
+    return piece if piece.replace("_", "").isalpha() else reading.number(piece, name)

@@ -36,7 +36,8 @@ def files(report: Report) -> dict[str, bytes]:
 
 def names(point: WorkPoint) -> dict[str, str]:
     """The names of the figures of a point's problem, and their titles."""
-    stem = f"{point.family}-{family(point.family).symbol}-{point.amplitude!r}"
+    amplitude = point.amplitude if isinstance(point.amplitude, str) else repr(point.amplitude)
+    stem = f"{point.family}-{family(point.family).symbol}-{amplitude}"
     return {f"{stem}-{kind}": title for kind, (title, _, _) in FIGURES.items()}
 
 
@@ -49,7 +50,7 @@ def figures(report: Report) -> Iterator[tuple[str, Figure]]:
             for point in sorted(points, key=_effort):
                 if math.isfinite(point.max_error) and point.max_error > 0:
                     curves.setdefault(point.name, []).append(point)
-            units = family(points[0].family).units
+            units = family(points[0].family).error_units
             error = f"largest error  [{units}]" if units else "largest error"
             figure, axes = wide_figure(f"{title}, {case}", top=0.92, error=error)
             draw_curves(axes, curves, ink, work)

@@ -14,11 +14,12 @@ class WorkPoint:
 
     Attributes:
         family: of problems.
-        amplitude: the number that tells the problem from others of its family, in the family's units.
+        amplitude: the number, in the family's units, or the name that tells the problem from others of its family.
         name: of the method or solver.
         kind: "method", which takes a number of steps, or "solver", which takes a tolerance.
         setting: the number of steps, or the tolerance.
-        max_error: the largest error of the place over the sample times, in the family's units; NaN where there is none.
+        max_error: the largest error of the place over the samples, in the family's units of errors; NaN where there is
+            none.
         floor: whether the error is rounding rather than truncation.
         evaluations: what it took, in its own count; None where it failed.
         seconds: of the march or the call by itself; None where it failed.
@@ -26,7 +27,7 @@ class WorkPoint:
     """
 
     family: str
-    amplitude: float
+    amplitude: float | str
     name: str
     kind: str
     setting: float

@@ -7,14 +7,13 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from compare.methods import DEFAULT, find
 from compare.output import folder
-from compare.report.families import FAMILIES, family
+from compare.report.families import FAMILIES, Amplitude, Family, family
 from compare.report.kept import Kept
 from compare.report.records import Report, WorkPoint
 from compare.report.work import Task, work
 from compare.scores import SAMPLES
-from compare.scoring import fits, some
+from compare.scoring import fits, named, some
 from compare.solvers.catalogue import SOLVERS, select
 from compare.solvers.solver import CALLS
 from compare.studies.solvers import DEFAULT_LIMIT, DEFAULT_RTOL, facts, questions, tolerances
@@ -27,7 +26,7 @@ from reference.partial import partial
 
 if TYPE_CHECKING:
     import os
-    from collections.abc import Callable, Iterator, Sequence
+    from collections.abc import Callable, Iterable, Iterator, Sequence
 
     from compare.method import Method
     from compare.solvers.solver import Question, Solver
@@ -62,7 +61,7 @@ class Plan:
 
 def plan(
     problems: Sequence[str] | None = None,
-    amplitudes: Sequence[float] | None = None,
+    amplitudes: Sequence[Amplitude] | None = None,
     methods: Sequence[str] | None = None,
     solvers: Sequence[str] | None = None,
     n: Sequence[int] = DEFAULT_N,
@@ -74,12 +73,13 @@ def plan(
 
     Args:
         problems: families of problems; all if None.
-        amplitudes: how far from rest they start; those of each family if None.
-        methods: methods with a fixed step; ``compare.methods.DEFAULT`` if None, and () for none.
+        amplitudes: how far from rest they start, and for the descent the names of curves; those of each family where
+            none of its kind is given.
+        methods: methods with a fixed step, or "all"; ``compare.methods.DEFAULT`` if None, and () for none.
         solvers: solvers or packages; all if None, and () for none.
         n: numbers of steps for methods.
         rtol: tolerances for solvers.
-        t_end: the last time in s.
+        t_end: the last time in s, or in the problem's own unit; curves and descents end where they do.
         max_evaluations: of the right-hand side that a solver is granted for one answer.
 
     Raises:
@@ -87,32 +87,41 @@ def plan(
         TypeError: an argument is of the wrong kind.
     """
     families = FAMILIES if problems is None else tuple(family(name) for name in some(problems, "problems"))
-    marched = DEFAULT if methods is None else tuple(dict.fromkeys(map(find, _named(methods, "methods"))))
-    asked = SOLVERS if solvers is None else select(_named(solvers, "solvers"))
+    marched = () if methods == () else named(methods)
+    asked = SOLVERS if solvers is None else select(() if solvers == () else some(solvers, "solvers"))
     counts = tuple(sorted({positive(count, "n") for count in some(n, "n")}))
     settings = {"method": counts, "solver": tuple(tolerances(rtol))}
     tasks: list[Task] = []
     left_out: dict[str, list[str]] = {}
+    given = _given(families, amplitudes)
     for one in families:
-        for amplitude in one.amplitudes if amplitudes is None else some(amplitudes, "amplitudes"):
-            question = next(questions(one.build(amplitude), t_end, rtol, max_evaluations))
+        for amplitude in _amplitudes(one, given):
+            problem = one.build(amplitude)
+            end = t_end if one.end is None else float(one.end(problem))
+            question = next(questions(problem, end, rtol, max_evaluations))
             for name, kind, suits in _suited(question, marched, asked):
                 if suits:
-                    tasks.append(
-                        Task(one.name, float(amplitude), name, kind, settings[kind], question.end, max_evaluations)
-                    )
+                    tasks.append(Task(one.name, amplitude, name, kind, settings[kind], question.end, max_evaluations))
                 else:
                     left_out.setdefault(one.label(amplitude), []).append(name)
     if not tasks:
         raise ValueError("there is nothing to report on: no method and no solver that is installed is asked for.")
+    cases = dict.fromkeys((family(task.family), task.amplitude, task.t_end) for task in tasks)
     parameters = {
-        "problems": list(dict.fromkeys(family(task.family).label(task.amplitude) for task in tasks)),
-        "t_end": tasks[0].t_end,
+        "problems": [one.label(amplitude) for one, amplitude, _ in cases],
+        **_ends(cases, t_end),
         "samples": SAMPLES,
         "n": list(counts),
         "rtol": list(settings["solver"]),
     }
     return Plan(tuple(tasks), {s.package: s.install for s in asked if s.version is None}, left_out, parameters)
+
+
+def _ends(cases: Iterable[tuple[Family, Amplitude, float]], t_end: float) -> dict[str, Any]:
+    """Where marches end: all of those that go on for as long as they are asked to, and each that ends of itself."""
+    whole = [one for one, _, _ in cases if one.end is None]
+    ends = {one.label(amplitude): end for one, amplitude, end in cases if one.end is not None}
+    return {**({"t_end": float(t_end)} if whole else {}), **({"ends": ends} if ends else {})}
 
 
 def _suited(
@@ -123,8 +132,24 @@ def _suited(
     yield from ((s.name, "solver", s.solves(question)) for s in solvers if s.version is not None)
 
 
-def _named(names: Sequence[str], what: str) -> Sequence[str]:
-    return () if names == () else some(names, what)
+def _given(families: Sequence[Family], amplitudes: Sequence[Amplitude] | None) -> tuple[Amplitude, ...]:
+    """The numbers and names that are asked for, each as a double or as it is.
+
+    Raises:
+        ValueError: there is none, or one that no family takes.
+    """
+    given = () if amplitudes is None else some(amplitudes, "amplitudes")
+    taken = {one.named for one in families}
+    for amplitude in given:
+        if isinstance(amplitude, str) not in taken:
+            what = "names are accepted: they differ in a curve" if taken == {True} else "numbers are accepted"
+            raise ValueError(f"amplitudes has {amplitude!r}; of {', '.join(one.name for one in families)}, {what}.")
+    return tuple(amplitude if isinstance(amplitude, str) else float(amplitude) for amplitude in given)
+
+
+def _amplitudes(one: Family, given: Sequence[Amplitude]) -> Sequence[Amplitude]:
+    """Those of a family: its own where none of those that are asked for is of its kind."""
+    return [amplitude for amplitude in given if isinstance(amplitude, str) == one.named] or one.amplitudes
 
 
 def run(

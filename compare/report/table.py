@@ -69,7 +69,7 @@ def _costs(
 
     columns = Column("", left=True), *(Column(f"{target:.0e}") for target in TARGETS)
     rows = tuple((name, *(least(name, t) for t in TARGETS)) for name in dict.fromkeys(p.name for p in points))
-    units = family(points[0].family).units
+    units = family(points[0].family).error_units
     whole = f"{title}: the least of those measured whose largest error{f', in {units},' if units else ''} is below"
     return Section(grid.slug(title.lower()), whole, (Grid(columns, rows),), "\n".join(notes))
 

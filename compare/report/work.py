@@ -40,7 +40,7 @@ class Task:
     """
 
     family: str
-    amplitude: float
+    amplitude: float | str
     name: str
     kind: str
     settings: tuple[float, ...]

@@ -21,9 +21,9 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--g", metavar="G", help="gravity in m/s^2 (default 9.81)")
     parser.add_argument("--length", metavar="L", help="length in m (default 1)")
     parser.add_argument("--t-end", metavar="T", help="the last time in s (default 10)")
-    parser.add_argument("--rtol", **several, help="tolerances (default 1e-3, 1e-4, ... 1e-13); may repeat")
+    parser.add_argument("--rtol", **several, help="tolerances (default 1e-3, 1e-5, ... 1e-11); may repeat")
     parser.add_argument("--solvers", **several, help="solvers or packages by name (default all); may repeat")
-    parser.add_argument("--max-evaluations", metavar="N", help="granted for one answer (default 200000)")
+    parser.add_argument("--max-evaluations", metavar="N", help="granted for one answer (default 100000)")
     parser.add_argument("--exact", action="store_true", help="take numbers as written: decimals, or fractions")
     parser.add_argument(
         "--format",

@@ -109,3 +109,8 @@ class SolverStudy:
     solvers: tuple[SolverEntry, ...]
     error_vs_rtol: tuple[SolverCell, ...]
     events: tuple[EventCell, ...]
+
+    @property
+    def scored(self) -> bool:
+        """Whether any solver gave states that could be scored."""
+        return any(not cell.failure for cell in self.error_vs_rtol)

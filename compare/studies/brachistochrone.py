@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from compare.records import Study
     from reference.problem import Problem
 
-__all__ = ["FORMS", "study"]
+__all__ = ["FORMS", "depth_of", "study"]
 
 FORMS = {
     "motion": "s'' = g (1 - s/(4 R)), s the arc length from the cusp, at rest at s = 0",
@@ -63,7 +63,7 @@ def study(
     distinct([(float(bead.end_x), float(bead.end_y)) for bead in beads], "end", "point")
     curves = [CycloidCurve(float(bead.radius())) for bead in beads] if "curve" in forms else []
     problems: list[Problem] = [*(beads if "motion" in forms else []), *curves]
-    ends = [*([t_end] * (len(problems) - len(curves))), *(_depth(curve, depth) for curve in curves)]
+    ends = [*([t_end] * (len(problems) - len(curves))), *(depth_of(curve, depth) for curve in curves)]
     parameters: dict[str, Any] = {
         "end": [(as_number(bead.end_x), as_number(bead.end_y)) for bead in beads],
         "g": as_number(beads[0].g),
@@ -76,8 +76,12 @@ def study(
     return made("brachistochrone", problems, definition, parameters, traces=traces, n=n, t_end=ends, **options)
 
 
-def _depth(curve: CycloidCurve, depth: Any) -> Fraction:
-    """Where the march of a curve ends."""
+def depth_of(curve: CycloidCurve, depth: Any = None) -> Fraction:
+    """Where the march of a curve ends: NEAR_THE_BOTTOM of its depth if it is not said.
+
+    Raises:
+        ValueError: it does not go down to there.
+    """
     if depth is None:
         return Fraction(float(2 * curve.radius) * NEAR_THE_BOTTOM)
     if not 0 < (end := exact(depth, "depth")) <= 2 * curve.radius:

@@ -150,5 +150,6 @@ def _engine(fmt: Precision) -> dict[str, Any]:
         "bits": fmt.bits,
         "compiler": f"heyoka {hy.__version__}",
         "sine": f"heyoka's vector library; from {INLINE_SINE:.0e} evaluations in a march, inlined (compare.sine)",
-        "contraction": "products and sums may be fused, so rounding differs from one processor to another",
+        "contraction": "products and sums may be fused, so rounding differs from one processor to another; what it may "
+        "change is not printed",
     }

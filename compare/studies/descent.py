@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
     from compare.records import Study
 
-__all__ = ["study"]
+__all__ = ["last_tick", "study"]
 
 DEFINITION = "N w'' = -(g y_w + N_w w'^2/2), N = x_w^2 + y_w^2, w(0) = w'(0) = 0, w the fraction of the way"
 TICK = Fraction(1, 1024)
@@ -53,7 +53,7 @@ def study(
     distinct(problems, "curve", "curve")
     for problem in problems:
         _ = problem.start  # a cusp has none
-    ends = [_last_tick(problem) if t_end is None else positive_end(t_end, "t_end") for problem in problems]
+    ends = [last_tick(problem) if t_end is None else positive_end(t_end, "t_end") for problem in problems]
     parameters = {
         "curve": [problem.curve.name for problem in problems],
         "g": as_number(problems[0].g),
@@ -62,5 +62,6 @@ def study(
     return made("descent", problems, DEFINITION, parameters, traces=traces, n=n, t_end=ends, **options)
 
 
-def _last_tick(problem: Descent) -> Fraction:
+def last_tick(problem: Descent) -> Fraction:
+    """Where the march of a descent ends, in s: almost at the end of the curve."""
     return TICK * int(SPARE * Fraction(float(problem.descent_time())) / TICK)

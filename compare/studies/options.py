@@ -101,7 +101,9 @@ class Room:
             parser.add_argument(f"--{name}", action=action, metavar=option.metavar, help=option.text)
         several: dict[str, Any] = {"action": "append", "metavar": "A,B"}
         last = LAST.get(self.family, 2**17)
-        parser.add_argument("--methods", **several, help="methods by name (default twelve; see 'list'); may repeat")
+        parser.add_argument(
+            "--methods", **several, help="methods by name (default twelve; see 'list'), or all; may repeat"
+        )
         parser.add_argument("--n", **several, help=f"numbers of steps (default {POWERS}{last}); may repeat")
         scores = f"{', '.join(SCORES)} (default {', '.join(DEFAULT_SCORES)})"
         parser.add_argument("--scores", **several, help=f"what is shown: {scores}; may repeat")

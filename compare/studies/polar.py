@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from compare.records import Study
     from reference.problem import Problem
 
-__all__ = ["FORMS", "study"]
+__all__ = ["FORMS", "PSI_END", "depth_above", "study"]
 
 FORMS = {
     "time": "z'' = -1/(2 z^2) + kappa (2 z^-5 - 3 z^-4 + z^-3), phi' = sqrt(kappa) (1 - z)/z^3, from rest at z = 1",
@@ -30,13 +30,15 @@ FORMS = {
 }
 ABOVE_THE_LOWEST = Fraction(1, 10_000)
 """Part of the way down at which the curve in z ends before its lowest point."""
+PSI_END = 6.25
+"""Where the curve in psi ends, in rad: almost at rest again."""
 
 
 def study(
     z0: Sequence[Any] = (0.5,),
     tau_end: Any = 10.0,
     z_end: Any = None,
-    psi_end: Any = 6.25,
+    psi_end: Any = PSI_END,
     form: Sequence[str] = tuple(FORMS),
     n: Sequence[int] = SHORTER_N,
     *,
@@ -71,7 +73,7 @@ def study(
         parameters["tau_end"] = as_number(ends[-1])
     if "z" in forms:
         problems += [PolarByZ(value) for value in lowest]
-        ends += [_depth(value, z_end) for value in lowest]
+        ends += [depth_above(value, z_end) for value in lowest]
         parameters["z_end"] = [as_number(1 - depth) for depth in ends[-len(lowest) :]]
     if "psi" in forms:
         problems += [PolarByPsi(value) for value in lowest]
@@ -81,8 +83,12 @@ def study(
     return made("polar", problems, definition, parameters, traces=traces, n=n, t_end=ends, **options)
 
 
-def _depth(lowest: Fraction, z_end: Any) -> Fraction:
-    """How far below the release the curve in z ends."""
+def depth_above(lowest: Fraction, z_end: Any = None) -> Fraction:
+    """How far below the release the curve in z ends: ABOVE_THE_LOWEST of the way if it is not said.
+
+    Raises:
+        ValueError: it is not above the lowest point and below the release.
+    """
     if z_end is None:
         return 1 - exact(float(lowest + (1 - lowest) * ABOVE_THE_LOWEST), "z_end")
     if not lowest < (end := exact(z_end, "z_end")) < 1:

@@ -9,10 +9,11 @@ import numpy as np
 
 from compare.scores import SAMPLES
 from compare.scoring import some
+from compare.solvers.asking import Asked, events
 from compare.solvers.catalogue import SOLVERS, select
-from compare.solvers.events import event_of, exact_events
+from compare.solvers.events import event_of
 from compare.solvers.records import SolverEntry, SolverStudy
-from compare.solvers.score import score_events, score_solver
+from compare.solvers.score import score_solver
 from compare.solvers.solver import Question
 from reference import Pendulum, __version__
 from reference.certify import ROUTES
@@ -20,15 +21,18 @@ from reference.exact import as_number, exact, positive
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
+    from concurrent.futures import Executor
 
-    from compare.solvers.records import EventCell, SolverCell
     from compare.solvers.solver import Solver
     from reference.problem import Problem
 
-__all__ = ["DEFAULT_LIMIT", "DEFAULT_RTOL", "facts", "questions", "scored", "study", "tolerances"]
+__all__ = ["DEFAULT_LIMIT", "DEFAULT_RTOL", "QUICK_LIMIT", "QUICK_RTOL", "facts", "questions", "study", "tolerances"]
 
 DEFAULT_RTOL = tuple(float(f"1e-{k}") for k in range(3, 14))
 DEFAULT_LIMIT = 200_000
+QUICK_RTOL = DEFAULT_RTOL[:-2:2]
+QUICK_LIMIT = 100_000
+"""What one study takes: of the tolerances of a report the tightest two take half of the time."""
 TINY, HUGE = sys.float_info.min, sys.float_info.max
 
 
@@ -37,10 +41,11 @@ def study(
     g: Any = 9.81,
     length: Any = 1.0,
     t_end: Any = 10.0,
-    rtol: Sequence[float] = DEFAULT_RTOL,
+    rtol: Sequence[float] = QUICK_RTOL,
     solvers: Sequence[str] | None = None,
-    max_evaluations: int = DEFAULT_LIMIT,
+    max_evaluations: int = QUICK_LIMIT,
     progress: Callable[[str], None] | None = None,
+    executor: Executor | None = None,
 ) -> SolverStudy:
     """Ask solvers for the pendulum released at each amplitude, over 0 <= t <= t_end at each tolerance.
 
@@ -53,6 +58,7 @@ def study(
         solvers: names of solvers or packages; all if None.
         max_evaluations: of the right-hand side that a solver is granted for one answer.
         progress: called with a line on what is being done.
+        executor: takes its share of what is not timed: the events, after all states; solvers are timed here, alone.
 
     Raises:
         ValueError: an argument is outside its range, or a name unknown.
@@ -63,15 +69,13 @@ def study(
         raise ValueError("theta0 has one amplitude twice, to a double's precision; each is accepted once.")
     chosen = SOLVERS if solvers is None else select(some(solvers, "solvers"))
     asked = [list(questions(problem, t_end, rtol, max_evaluations)) for problem in problems]
-    cells: list[SolverCell] = []
-    events: list[EventCell] = []
+    answers: list[Asked] = []
     for solver in chosen:
         for series in asked if solver.version is not None else ():
             if progress is not None:
                 progress(solver.name)
-            found = scored(solver, series)
-            cells += found[0]
-            events += found[1]
+            answers += map(Asked, [solver] * len(series), series, score_solver(solver, series))
+    found = events(answers, executor, progress)
     return SolverStudy(
         problem="pendulum",
         parameters={
@@ -90,8 +94,8 @@ def study(
         },
         engine=facts(max_evaluations),
         solvers=tuple(_entry(solver) for solver in chosen),
-        error_vs_rtol=tuple(cells),
-        events=tuple(events),
+        error_vs_rtol=tuple(answer.cell for answer in answers),
+        events=tuple(found),
     )
 
 
@@ -101,7 +105,7 @@ def facts(limit: int) -> dict[str, Any]:
         "precision": "float64; a solver is given parameters and starts rounded to it",
         "tolerance": "rtol, and atol = rtol; where a solver takes a step, rtol^(1/order)/rate",
         "evaluations": f"counted in the right-hand side itself; a solver is stopped after {limit}",
-        "seconds": "the shortest of three calls, or one where it is long; what compiles has compiled before",
+        "seconds": "the shortest of three calls, or fewer where they are long; what compiles has compiled before",
     }
 
 
@@ -132,15 +136,6 @@ def tolerances(rtol: Sequence[float]) -> list[float]:
         if not TINY <= tolerance < 1:
             raise ValueError(f"rtol is {as_number(tolerance)}; a number with 0 < rtol < 1 is accepted.")
     return sorted(map(float, asked), reverse=True)
-
-
-def scored(solver: Solver, series: Sequence[Question]) -> tuple[list[SolverCell], list[EventCell]]:
-    """Score a solver at each tolerance of one problem; where it gave no states, it is not asked for events."""
-    exact_times = exact_events(series[0].problem, series[0].end)
-    cells = score_solver(solver, series)
-    answered = [question for question, cell in zip(series, cells, strict=True) if not cell.failure]
-    events = [score_events(solver, question, exact_times) for question in answered]
-    return cells, [event for event in events if event is not None]
 
 
 def _entry(solver: Solver) -> SolverEntry:

@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-import zipfile
-from contextlib import ExitStack, contextmanager
+from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
-from numpy.lib import format as npy
 
-from compare.submission.chunk import Chunk
-from compare.submission.written import of_value
+from compare.submission.chunk import Chunk, Doubles, Row
+from compare.submission.npz import NO_NPY
+from compare.submission.written import LOG10_2, of_value
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
@@ -18,11 +17,10 @@ if TYPE_CHECKING:
 
     from compare.submission.columns import Columns
 
-__all__ = ["Column", "Sliced", "chunks", "npy_columns", "npz_columns"]
+__all__ = ["Column", "Sliced", "chunks", "npy_columns"]
 
 NUMBERS = "fiuU"
 """NumPy kinds of columns that can be judged: floats, integers, and decimals as strings."""
-NO_NPY = "which NumPy cannot read as an array of numbers; numpy.save and numpy.savez write one"
 
 
 class Column(Protocol):
@@ -49,22 +47,6 @@ class Sliced:
         return self._pick(slice(begin, begin + count))
 
 
-class Member:
-    """A one-dimensional array in a zip archive: it is read as it is unpacked."""
-
-    def __init__(self, name: str, stream: Any) -> None:
-        version = npy.read_magic(stream)
-        header = npy.read_array_header_1_0 if version == (1, 0) else npy.read_array_header_2_0
-        self.shape, _, self.dtype = header(stream)
-        if self.dtype.hasobject:
-            raise ValueError(f"{name} is an array of Python objects; an array of numbers is accepted.")
-        self._stream = stream
-
-    def read(self, count: int) -> Any:
-        """The next numbers."""
-        return np.frombuffer(self._stream.read(count * self.dtype.itemsize), self.dtype)
-
-
 def chunks(columns: Columns, found: Sequence[Column], size: int) -> Iterator[Chunk]:
     """The rows of columns of one length, the time first.
 
@@ -82,19 +64,38 @@ def chunks(columns: Columns, found: Sequence[Column], size: int) -> Iterator[Chu
     if not rows:
         raise ValueError("there are no rows; a row for each time is accepted.")
     for begin in range(0, rows, size):
-        count = min(size, rows - begin)
-        places = [f"row {begin + i + 1}" for i in range(count)]
-        t, *states = (
-            [of_value(value, f"{name} in {at}") for value, at in zip(_scalars(column.read(count)), places, strict=True)]
-            for name, column in zip(names, found, strict=True)
+        parts = [np.asarray(column.read(min(size, rows - begin))) for column in found]
+        yield Chunk(len(parts[0]), Exact(names, parts, begin), _doubles(parts))
+
+
+class Exact:
+    """The exact rows of columns, which begin after the first ``begin`` rows of a file."""
+
+    def __init__(self, names: Sequence[str], columns: Sequence[np.ndarray], begin: int) -> None:
+        self._names, self._columns, self._begin = names, columns, begin
+
+    def __call__(self, place: int) -> Row:
+        at = f"row {self._begin + place + 1}"
+        t, *state = (
+            of_value(_scalar(column[place]), f"{name} in {at}")
+            for name, column in zip(self._names, self._columns, strict=True)
         )
-        yield Chunk(t, list(zip(*states, strict=True)), places)
+        return Row(t, tuple(state), at)
 
 
-def _scalars(numbers: Any) -> list[Any]:
-    """Doubles as Python's floats, others as they are."""
-    array = np.asarray(numbers)
-    return array.tolist() if array.dtype == np.float64 else list(array)
+def _doubles(columns: Sequence[np.ndarray]) -> Doubles | None:
+    """The columns as doubles, where all are of floating-point numbers, finite and not beyond the doubles."""
+    if any(column.dtype.kind != "f" for column in columns):
+        return None
+    with np.errstate(over="ignore"):
+        numbers = np.column_stack([column.astype(np.float64) for column in columns])
+    digits = max((np.finfo(column.dtype).nmant + 1) * LOG10_2 for column in columns[1:])
+    return Doubles(numbers, float(digits)) if np.isfinite(numbers).all() else None
+
+
+def _scalar(number: Any) -> Any:
+    """A double as Python's float, others as they are."""
+    return number.item() if type(number) is np.float64 else number
 
 
 @contextmanager
@@ -123,20 +124,3 @@ def _field(array: Any, name: str) -> Column:
 
 def _of_table(array: Any, place: int) -> Column:
     return Sliced(array.shape[:1], array.dtype, lambda rows: array[rows, place])
-
-
-@contextmanager
-def npz_columns(path: Path, columns: Columns) -> Iterator[list[Column]]:
-    """The columns of an NPZ file, one array each.
-
-    Raises:
-        ValueError: it is no such file, or has no such arrays.
-    """
-    with ExitStack() as stack:
-        try:
-            archive = stack.enter_context(zipfile.ZipFile(path))
-        except zipfile.BadZipFile as error:
-            raise ValueError(f"'{path}' is a file {NO_NPY}.") from error
-        members = archive.namelist()
-        places = columns.among([name.removesuffix(".npy") for name in members], "arrays")
-        yield [Member(members[place], stack.enter_context(archive.open(members[place]))) for place in places]

@@ -69,8 +69,10 @@ class Columns:
             places += where
         return places
 
-    def without_header(self, count: int) -> list[int]:
+    def without_header(self, count: int, hint: str = "") -> list[int]:
         """Where the wanted columns are in a file without names: in order, or at the numbers that were asked for.
+
+        ``hint`` is added to the sentence on a wrong number of columns.
 
         Raises:
             ValueError: there are more or fewer columns than are wanted, or a number is beyond the last.
@@ -79,7 +81,8 @@ class Columns:
             if count != len(self.wanted):
                 raise ValueError(
                     f"there are {count} columns without a header; {len(self.wanted)} are accepted ({self._list}), "
-                    "or a header with these names, or --columns with their numbers, such as --columns 1,2,3."
+                    "or a header with these names, or --columns with their numbers, such as --columns 1,2,3"
+                    f"{hint}."
                 )
             return list(range(count))
         for name in self.asked:

@@ -2,20 +2,25 @@
 
 from __future__ import annotations
 
+from collections import deque
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from compare.submission.columns import Columns
+from compare.submission.crew import Crew
 from compare.submission.files import Rows
 from compare.submission.judge import CHUNK, Judge
 from compare.submission.record import Running, capped
 from compare.submission.show import csv_header, csv_rows, rendered
+from compare.submission.sift import Sift
 from reference.families import FAMILIES
 from reference.names import unknown
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping
 
+    from compare.submission.chunk import Chunk
+    from compare.submission.record import Point
     from reference.at import Family
     from reference.problem import Problem
 
@@ -65,16 +70,32 @@ def judged(asked: Submission, progress: Callable[[str], None] | None = None) -> 
     rows = Rows(asked.file, columns, as_written=asked.exact)
     running = Running(problem.state_names, keep=asked.rows)
     done = 0
-    for chunk in rows.chunks(CHUNK):
-        points = judge.points(*chunk)
-        running.add(points)
-        if asked.form == "csv":
-            yield ("" if done else csv_header(problem.state_names)) + csv_rows(capped(p, judge.held) for p in points)
-        done += len(points)
-        if progress is not None:
-            progress(f"{done} rows")
+    with Crew(judge) as crew:
+        sift = Sift(judge, running, crew)
+        for points, held, count in _found(rows, judge, crew, crew.points if asked.form == "csv" else sift.points):
+            running.add(points)
+            if asked.form == "csv":
+                yield ("" if done else csv_header(problem.state_names)) + csv_rows(capped(p, held) for p in points)
+            done += count
+            if progress is not None:
+                progress(f"{done} rows")
     if asked.form != "csv":
         yield rendered(judge.score(running, rows.times), asked.form)
+
+
+def _found(
+    rows: Rows, judge: Judge, crew: Crew, judged: Callable[[Chunk], Callable[[], list[Point]]]
+) -> Iterator[tuple[list[Point], float, int]]:
+    """What is found of each chunk, the digits that the input holds up to there, and how many rows it has."""
+    waiting: deque[tuple[Callable[[], list[Point]], float, int]] = deque()
+    for chunk in rows.chunks(CHUNK):
+        found = judged(chunk)
+        waiting.append((found, judge.held, len(chunk)))
+        while len(waiting) > crew.ahead:
+            found, held, count = waiting.popleft()
+            yield found(), held, count
+    for found, held, count in waiting:
+        yield found(), held, count
 
 
 def _problem(asked: Submission) -> Problem:

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from compare.submission.arrays import Sliced, chunks, npy_columns, npz_columns
+from compare.submission.arrays import Sliced, chunks, npy_columns
+from compare.submission.npz import npz_columns
+from compare.submission.packed import packed, rows_first
 from compare.submission.text import STANDARD_INPUT, TextRows
 
 if TYPE_CHECKING:
@@ -72,16 +74,39 @@ class Rows:
 
 @contextmanager
 def _hdf5_columns(path: Path, columns: Columns) -> Iterator[list[Column]]:
-    """The columns of an HDF5 file: one dataset each, by its path or by the last part of it."""
+    """The columns of an HDF5 file: one dataset each, by its path or by the last part of it; or one of times and
+    one of states, where no two are called alike.
+    """
     from reference.store.columns import foreign_columns
 
     with foreign_columns(path) as found:
         paths = list(found)
         last = [path.rpartition("/")[2] for path in paths]
+        in_two = None
+        if len(set(last)) == len(last):
+            in_two = packed(columns, dict(zip(last, (data.shape for data in found.values()), strict=True)))
+        if in_two is not None:
+            time, table = (found[paths[last.index(name)]] for name in in_two)
+            by_rows = rows_first(columns, in_two[1], table.shape, time.shape)
+            states = [_of_table(table, place, rows_first=by_rows) for place in range(len(columns.wanted) - 1)]
+            yield [_column(time), *states]
+            return
         names = paths if set(columns.names) <= set(paths) else last
         places = columns.among(names, "datasets")
         yield [_column(found[paths[place]]) for place in places]
 
 
 def _column(data: ForeignColumn) -> Column:
-    return Sliced(data.shape, np.dtype(str) if data.is_text else data.dtype, data.__getitem__)
+    return Sliced(data.shape, _dtype(data), data.__getitem__)
+
+
+def _of_table(data: ForeignColumn, place: int, *, rows_first: bool) -> Column:
+    """The numbers at ``place`` of every row, of a dataset of shape [rows, state] or else [state, rows]."""
+    pick: Any = data.__getitem__  # h5py takes a slice for each axis
+    if rows_first:
+        return Sliced(data.shape[:1], _dtype(data), lambda rows: pick((rows, place)))
+    return Sliced(data.shape[1:], _dtype(data), lambda rows: pick((place, rows)))
+
+
+def _dtype(data: ForeignColumn) -> Any:
+    return np.dtype(str) if data.is_text else data.dtype

@@ -12,6 +12,7 @@ from flint import arb, ctx
 from compare.submission.orbit import orbits, remark
 from compare.submission.place import apart
 from compare.submission.record import Point
+from compare.submission.turns import Turns
 from reference.arithmetic import BALL
 from reference.problem import Problem
 from reference.routes import enclosure
@@ -19,11 +20,12 @@ from reference.routes import enclosure
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
+    from compare.submission.chunk import Row
     from compare.submission.place import Orbits
     from compare.submission.record import Running, Score
     from compare.submission.written import Written
 
-__all__ = ["CHUNK", "Judge"]
+__all__ = ["CHUNK", "FIRST_ROWS", "Judge"]
 
 SPARE_BITS = 64
 """Bits of the truth beyond the last that the input can hold, so that its errors are known to a good many digits."""
@@ -40,6 +42,8 @@ class Judge:
     Attributes:
         time: what the state is a function of: "t", or the name of another time, such as "tau".
         held: the digits that the input can hold: the most that any of its numbers so far has.
+        rows: how many rows are judged, and ``last`` the time of the last of them.
+        turns: counts the angles that are wrong by whole turns, of all rows.
 
     Raises:
         TypeError: ``problem`` is no problem with a state in time.
@@ -54,53 +58,63 @@ class Judge:
         self.time = _time(problem)
         self.held = 0.0
         self._units = tuple(quantity.units for quantity in problem.row("state").quantities)
-        self._rows = 0
-        self._last: Written | None = None
+        self.turns = Turns(problem.state_names, self._units)
+        self.rows = 0
+        self.last: Written | None = None
 
     def expect(self, digits: Iterable[float]) -> None:
         """Learn the digits of numbers to come."""
         self.held = max(self.held, max(digits, default=0.0))
 
-    def points(
-        self, times: Sequence[Written], states: Sequence[Sequence[Written]], places: Sequence[str] | None = None
-    ) -> list[Point]:
-        """Judge the next rows; their digits are not yet capped at what the input can hold.
-
-        ``places`` says where each row is, such as "line 7"; they are counted if it is None.
+    def points(self, rows: Sequence[Row]) -> list[Point]:
+        """Judge the next rows; their digits are not yet capped at what the input can hold, nor their turns counted.
 
         Raises:
             ValueError: the times do not increase, or an angle is in degrees.
         """
-        self._refuse_disorder(times, places or [f"row {self._rows + i}" for i in range(1, len(times) + 1)])
-        self.expect(number.digits for state in states for number in state)
+        self._refuse_disorder(rows)
+        self.expect(number.digits for row in rows for number in row.state)
+        found = self.some(range(len(rows)), rows)
+        self.pass_over(len(rows), rows[-1].t)
+        return found
+
+    def some(self, places: Sequence[int], rows: Sequence[Row]) -> list[Point]:
+        """Judge rows at these places, counted from 0, among those that come next, in which none is passed yet.
+
+        Raises:
+            ValueError: an angle is in degrees.
+        """
         bits = math.ceil(self.held * math.log2(10)) + SPARE_BITS
-        instants = [t.value for t in times]
+        instants = [row.t.value for row in rows]
         truths = enclosure.balls(self.problem, "state", instants, bits)
-        if not self._rows:
-            self._refuse_degrees(states, truths)
+        if not self.rows and not places[0]:
+            self._refuse_degrees([row.state for row in rows], truths)
         with ctx.workprec(bits + SPARE_BITS + self.problem.working_bits(instants)):
             bench = _Bench(self.problem, bits)
-            found = [
-                bench.point(self._rows + i, t, state, truth)
-                for i, (t, state, truth) in enumerate(zip(times, states, truths, strict=True), start=1)
+            return [
+                bench.point(self.rows + place + 1, row.t, row.state, truth)
+                for place, row, truth in zip(places, rows, truths, strict=True)
             ]
-        self._rows += len(found)
-        return found
+
+    def pass_over(self, count: int, last: Written) -> None:
+        """Go on to the rows after the next ``count``, of which the last has this time."""
+        self.rows += count
+        self.last = last
 
     def score(self, running: Running, times: str) -> Score:
         """The summary of all rows so far, which ``running`` took in; ``times`` says how times were read."""
         return running.score(repr(self.problem), self._units, self.held, times, self._notes(running))
 
     def _notes(self, running: Running) -> tuple[str, ...]:
-        """What could not be judged, in sentences."""
+        """What could not be judged, or is to be known of it, in sentences."""
         lacking, lost = remark(self.problem), running.lost
-        if lost is None or (lacking and self._phaseless):
-            return (lacking,) if lacking else ()
-        sentence = (
-            f"Row {lost.number}, {self.time} = {lost.t}, is the first whose state is on no orbit of the exact motion's "
-            "kind: it has no phase."
-        )
-        return (lacking, sentence) if lacking else (sentence,)
+        notes = [lacking] if lacking else []
+        if lost is not None and not (lacking and self._phaseless):
+            notes.append(
+                f"Row {lost.number}, {self.time} = {lost.t}, is the first whose state is on no orbit of the exact "
+                "motion's kind: it has no phase."
+            )
+        return *notes, *self.turns.notes()
 
     @property
     def _phaseless(self) -> bool:
@@ -108,12 +122,13 @@ class Judge:
         found = orbits(self.problem)
         return found is None or found.truth(Fraction(0)).phase is None
 
-    def _refuse_disorder(self, times: Sequence[Written], places: Sequence[str]) -> None:
-        for t, place in zip(times, places, strict=True):
-            if self._last is not None and t.value <= self._last.value:
-                fault = "is repeated" if t.value == self._last.value else f"comes after {self.time} = {self._last.text}"
+    def _refuse_disorder(self, rows: Sequence[Row]) -> None:
+        last = self.last
+        for t, _, place in rows:
+            if last is not None and t.value <= last.value:
+                fault = "is repeated" if t.value == last.value else f"comes after {self.time} = {last.text}"
                 raise ValueError(f"{self.time} = {t.text} in {place} {fault}; increasing times are accepted.")
-            self._last = t
+            last = t
 
     def _refuse_degrees(self, states: Sequence[Sequence[Written]], truths: Sequence[Sequence[arb]]) -> None:
         """Raise where a number in radians is wrong by the factor that degrees would make it wrong by."""

@@ -10,6 +10,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from compare.submission.harmonic import CycloidAngles, CycloidArcs, Linear
+from compare.submission.radii import PointMassRadii, TunnelRadii
 from compare.submission.swings import Librations, Rotations, Small
 
 if TYPE_CHECKING:
@@ -28,6 +29,8 @@ KINDS: dict[tuple[str, str], Callable[..., Orbits]] = {
     ("tautochrone", ""): CycloidAngles,
     ("cycloidal pendulum", ""): CycloidArcs,
     ("cycloid", ""): CycloidArcs,
+    ("polar", ""): PointMassRadii,
+    ("tunnel", ""): TunnelRadii,
 }
 """The orbits of a problem by its name and its motion, where it has more than one kind of them."""
 REMARKS = {

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-__all__ = ["Point", "Running", "Score", "capped"]
+__all__ = ["Bar", "Point", "Running", "Score", "capped"]
 
 
 @dataclass(frozen=True)
@@ -77,10 +77,25 @@ class Score:
     points: tuple[Point, ...] = field(repr=False)
 
 
+class Bar(NamedTuple):
+    """The extremes so far.
+
+    Attributes:
+        maxima: of the errors of a row, of phase, amplitude and energy, and of each number of the state; a NaN stays.
+        worst: the fewest correct digits, and the number of the first row that has so few.
+        lost: whether a row without a phase is known.
+    """
+
+    maxima: list[float]
+    worst: tuple[float, int]
+    lost: bool
+
+
 class Running:
     """The summary of the rows so far, and an even choice of them: memory does not grow with their number.
 
-    Of the rows at most ``keep`` are kept, besides the first of the worst and the last; all if it is None.
+    Of the rows at most ``keep`` are kept, besides the first of the worst and the last; all if it is None.  A row that
+    changes nothing of this may be left out; ``wanted`` says which cannot be.
     """
 
     def __init__(self, names: tuple[str, ...], keep: int | None) -> None:
@@ -92,11 +107,18 @@ class Running:
         self._lost: Point | None = None
         self._maxima = [0.0] * (4 + len(names))
 
+    def wanted(self, first: int, last: int) -> list[int]:
+        """The numbers of those rows from the first to the last that are kept after the last, and the last."""
+        stride = self._stride
+        while self._keep is not None and (last - 1) // stride + 1 > self._keep:
+            stride *= 2
+        kept = range(first + (1 - first) % stride, last + 1, stride)
+        return sorted({*kept, last})
+
     def add(self, points: Iterable[Point]) -> None:
         """Take in the next rows."""
         for point in points:
-            found = point.error, point.phase_error, point.amplitude_error, point.energy_error, *point.errors
-            self._maxima = [_larger(a, abs(b)) for a, b in zip(self._maxima, found, strict=True)]
+            self._maxima = self._raised(self._maxima, point)
             if self._worst is None or point.digits < self._worst.digits:
                 self._worst = point
             if self._lost is None and math.isnan(point.phase_error):
@@ -104,12 +126,28 @@ class Running:
             self._choose(point)
             self._last = point
 
+    @staticmethod
+    def _raised(maxima: Iterable[float], point: Point) -> list[float]:
+        found = point.error, point.phase_error, point.amplitude_error, point.energy_error, *point.errors
+        return [_larger(a, abs(b)) for a, b in zip(maxima, found, strict=True)]
+
     def _choose(self, point: Point) -> None:
         """Keep every stride-th row, and double the stride where they become too many."""
+        while self._keep is not None and (point.number - 1) // self._stride + 1 > self._keep:
+            self._stride *= 2
+            self._kept = [kept for kept in self._kept if (kept.number - 1) % self._stride == 0]
         if (point.number - 1) % self._stride == 0:
             self._kept.append(point)
-        if self._keep is not None and len(self._kept) > self._keep:
-            self._kept, self._stride = self._kept[::2], 2 * self._stride
+
+    def bar(self, points: Iterable[Point]) -> Bar:
+        """What a row must pass to change the summary, after these rows besides those so far."""
+        maxima, worst, lost = self._maxima, self._worst, self._lost is not None
+        for point in points:
+            maxima = self._raised(maxima, point)
+            lost = lost or math.isnan(point.phase_error)
+            if worst is None or (point.digits, point.number) < (worst.digits, worst.number):
+                worst = point
+        return Bar(maxima, (math.inf, 0) if worst is None else (worst.digits, worst.number), lost=lost)
 
     @property
     def lost(self) -> Point | None:

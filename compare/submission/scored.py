@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from compare.submission.chunk import Row
 from compare.submission.judge import CHUNK, Judge
 from compare.submission.record import Running
 from compare.submission.written import of_value
@@ -42,8 +43,14 @@ def score(problem: Problem, t: Any, y: Any) -> Score:
         raise ValueError(f"t has {len(times)} times and y {len(states)} rows; equally many are accepted.")
     judge.expect(number.digits for state in states for number in state)
     running = Running(problem.state_names, keep=None)
-    for first in range(0, len(times), CHUNK):
-        running.add(judge.points(times[first : first + CHUNK], states[first : first + CHUNK]))
+    rows = [
+        Row(when, state, f"row {number}")
+        for number, (when, state) in enumerate(zip(times, states, strict=True), start=1)
+    ]
+    for first in range(0, len(rows), CHUNK):
+        points = judge.points(rows[first : first + CHUNK])
+        judge.turns.add(np.array([point.errors for point in points]))
+        running.add(points)
     return judge.score(running, "as written")
 
 

@@ -17,7 +17,7 @@ import numpy as np
 from reference.exact import MAX_DIGITS, exact
 from reference.names import short
 
-__all__ = ["ROUND_TRIP_DIGITS", "Written", "of_decimal", "of_value"]
+__all__ = ["LOG10_2", "ROUND_TRIP_DIGITS", "Written", "of_decimal", "of_value"]
 
 LOG10_2 = math.log10(2)
 BINARY64_DIGITS = 53 * LOG10_2
@@ -26,7 +26,7 @@ ROUND_TRIP_DIGITS = 17
 DECIMAL = re.compile(r"([+-]?)(\d*)(?:\.(\d*))?(?:[eEdDqQ]([+-]?\d+))?", re.ASCII)
 """A decimal; Fortran writes its exponents with D or Q where they are of double or quadruple precision."""
 NOT_FINITE = re.compile(r"[+-]?(nan|inf|infinity|1\.#(nan|inf|ind|qnan))(\(.*\))?", re.IGNORECASE)
-DECIMAL_COMMA = re.compile(r"[+-]?\d+,\d+(e[+-]?\d+)?", re.IGNORECASE)
+DECIMAL_COMMA = re.compile(r"[+-]?(\d+,\d*|,\d+)([edq][+-]?\d+)?", re.IGNORECASE | re.ASCII)
 ACCEPTED = "a number such as 0.5, -1.25e-3 or 1D0 is accepted"
 
 

@@ -8,10 +8,12 @@ import numpy as np
 import pytest
 
 from compare.__main__ import main
-from compare.figures import curve, descents, pendulum, polar, snapshots
+from compare.figures import curve, descents, pendulum, polar
 from compare.figures.catalogue import FIGURES
 from compare.figures.drawing import Drawing
+from compare.figures.motion import Motion
 from compare.figures.show import files
+from compare.published.source import figures
 
 SPEED_AT_THE_END = math.sqrt(2 * 9.81 * 2)
 
@@ -22,7 +24,7 @@ def curves(drawing):
 
 @pytest.fixture(scope="module")
 def drawings():
-    return [compute() for compute in FIGURES]
+    return [compute() for compute in FIGURES.values()]
 
 
 @pytest.fixture(scope="module")
@@ -136,27 +138,20 @@ def test_the_report_s_figure_11_shows_the_linear_solution_leave_and_the_approxim
     assert away["approximation (4.14)"] < 0.06
 
 
-def test_the_cycloid_alone_has_arrived_in_the_last_panel_of_figure_8():
-    *_, line, quartic, cycloid = (one.x for one in snapshots.figure8().bodies)
-    assert abs(cycloid[-1]) < 1e-12
-    assert line[-1] > quartic[-1] > 0.05
-    assert line[0] == quartic[0] == cycloid[0] == pytest.approx(math.pi)
+def test_every_figure_is_called_what_its_files_are_and_stands_in_the_list_of_pages(drawings):
+    names = [drawing.name for drawing in drawings]
+    assert names == list(FIGURES) == [figure.name for figure in figures()]
 
 
-def test_all_four_bodies_of_figure_13_are_at_the_bottom_in_the_last_panel_and_not_before():
-    found = snapshots.figure13().bodies
-    assert len(found) == 4
-    for one in found:
-        assert one.y[-1] < 1e-12
-        assert one.y[-2] > 0.05
-        assert np.all(np.diff(one.y) < 0)
-
-
-def test_every_figure_is_written_as_png_and_svg(drawings, written):
-    assert len({one.name for one in drawings}) == len(drawings)
-    assert set(written) == {f"{one.name}.{suffix}" for one in drawings for suffix in ("png", "svg")}
+def test_every_figure_is_written_as_png_and_svg_and_those_that_move_as_gif_and_html(drawings, written):
+    moving = {drawing.name for drawing in drawings if isinstance(drawing, Motion)}
+    assert moving == {"thesis-figure-8", "thesis-figure-13"}
+    assert set(written) == {f"{one.name}.{suffix}" for one in drawings for suffix in ("png", "svg")} | {
+        f"{name}.{suffix}" for name in moving for suffix in ("gif", "html")
+    }
+    begins = {"png": b"\x89PNG", "svg": b"<?xml", "gif": b"GIF89a", "html": b"<!DOCTYPE html>"}
     for name, content in written.items():
-        assert content.startswith(b"\x89PNG" if name.endswith("png") else b"<?xml")
+        assert content.startswith(begins[name.split(".")[1]])
 
 
 def test_every_axis_has_a_quantity_with_units(drawings):
@@ -172,6 +167,23 @@ def test_the_command_line_writes_the_figures_the_same_bytes_every_time(tmp_path,
     assert err.startswith("wrote report-figure-2.png, report-figure-2.svg, ")
     assert err.endswith(f"into {tmp_path / 'drawn'}\n")
     assert {path.name: path.read_bytes() for path in (tmp_path / "drawn").iterdir()} == written
+
+
+def test_one_figure_can_be_drawn_alone_and_beside_a_table(tmp_path, capsys):
+    assert main(["published", "thesis-figure-9", "table9", "--out", str(tmp_path), "--quiet"]) == 0
+    out, err = capsys.readouterr()
+    assert "Report table 9" in out
+    assert err == ""
+    assert {path.name for path in tmp_path.iterdir()} == {"thesis-figure-9.png", "thesis-figure-9.svg"}
+
+
+def test_nothing_is_drawn_where_a_name_is_unknown(tmp_path, capsys):
+    assert main(["published", "thesis-figure-9", "figure8", "--out", str(tmp_path)]) == 2
+    assert capsys.readouterr().err == (
+        "error: table 'figure8' is unknown, perhaps figure7 or thesis-figure-8 or thesis-figure-9; "
+        "accepted are table8, table9, table12, figure7, curves.\n"
+    )
+    assert not list(tmp_path.iterdir())
 
 
 def test_a_folder_without_figures_is_a_mistake(capsys):

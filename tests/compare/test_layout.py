@@ -18,11 +18,11 @@ from compare.methods import find
     [
         (4.3912e-13, 0.0, "4.39e-13"),
         (4.3912e-13, 1e-16, "4.39e-13"),
-        (4.3912e-13, 1e-15, "4.4e-13"),
-        (4.3912e-13, 2e-14, "4e-13"),
-        (-4.3912e-13, 1e-15, "-4.4e-13"),
+        (4.3912e-13, 2e-15, "4.4e-13"),
+        (4.3912e-13, 9e-15, "4e-13"),
+        (4.3912e-13, 9e-14, "~4e-13"),
+        (-4.3912e-13, 2e-15, "-4.4e-13"),
         (4.395e-13, 1e-17, "4.4e-13"),  # between two of three digits, whatever is done
-        (9.9951e-13, 1e-16, "1e-12"),  # 9.99e-13 or 1.00e-12, 1.0e-12 or 1.0e-12
         (0.0, 0.0, "0.00e+00"),
         (1.0, math.nan, "1.00e+00"),
         (math.inf, 1.0, "inf"),
@@ -30,27 +30,24 @@ from compare.methods import find
     ],
 )
 def test_a_number_has_the_digits_that_rounding_leaves(value: float, rounding: float, shown: str) -> None:
-    assert float(scientific(value, rounding)) == pytest.approx(float(shown), nan_ok=True)
-    if "inf" not in shown and value != 9.9951e-13:
-        assert scientific(value, rounding) == shown
+    assert scientific(value, rounding) == shown
 
 
 def test_what_is_printed_is_what_another_rounding_would_print() -> None:
     random = np.random.default_rng(7)
     for _ in range(2000):
         value = float(10 ** random.uniform(-14, 1))
-        rounding = float(value * 10 ** random.uniform(-8, -2))
-        other = value + rounding * float(random.uniform(-DOUBT, DOUBT))
+        rounding = float(value * 10 ** random.uniform(-8, -1))
+        other = value + rounding * float(random.uniform(-1, 1))
         text = scientific(value, rounding)
-        form = f".{len(text.partition('e')[0].partition('.')[2])}e"
-        if form != ".0e":
-            assert format(other, form) == text
+        if DOUBT not in text:
+            assert format(other, f".{len(text.partition('e')[0].partition('.')[2])}e") == text
 
 
 def test_a_number_of_rounding_is_marked() -> None:
-    assert starred(9e-14, 1e-14) == "9e-14*"
-    assert starred(-9e-14, 1e-14).endswith("*")
-    assert not starred(1.1e-13, 1e-14).endswith("*")
+    assert starred(1.9e-14, 1e-14) == "2e-14*"
+    assert starred(-1.9e-14, 1e-14) == "-2e-14*"
+    assert starred(5e-14, 1e-14) == "~5e-14"
     assert not is_rounding(0.0, 0.0)
     assert not is_rounding(1.0, math.nan)
 
@@ -59,7 +56,7 @@ def test_an_order_has_the_decimals_that_rounding_leaves() -> None:
     forms = (".4f", ".3f", ".2f")
     assert decided(3.98312, 1e-7, forms) == "3.9831"
     assert decided(3.98312, 1e-4, forms) == "3.983"
-    assert decided(3.98312, 1.0, forms) == "3.98"
+    assert decided(3.98312, 1.0, forms) == "~3.98"
 
 
 def test_a_cell_of_which_rounding_is_a_part_weighs_less_in_the_fitted_order() -> None:

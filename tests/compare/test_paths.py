@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
@@ -9,7 +10,10 @@ import numpy as np
 import pytest
 from mpmath import mp
 
+from compare import error_vs_n
 from compare.aspects import conserves
+from compare.methods import find
+from compare.methods.multistep import MULTISTEP
 from compare.paths import CycloidCurve, PolarByPsi, PolarByZ
 from reference import Cycloid, PolarBrachistochrone
 from reference.arithmetic import MPMATH, NUMPY
@@ -92,3 +96,11 @@ def test_both_forms_of_the_polar_curve_meet() -> None:
 def test_what_lies_beyond_the_curve_is_refused(make, sentence: str) -> None:
     with pytest.raises(ValueError, match=sentence):
         make()
+
+
+@pytest.mark.parametrize("name", ["float64", "float128", "mp:160"])
+@pytest.mark.parametrize("method", [method.name for method in MULTISTEP if not method.separable_only])
+def test_methods_that_remember_slopes_march_a_curve_too(method: str, name: str) -> None:
+    """A curve's coordinate has the slope one at every step, which is a number and no expression."""
+    coarse, fine = error_vs_n(PolarByPsi("1/2"), [method], n=[512, 1024], t_end=6, precision=name)
+    assert math.log2(coarse.max_error / fine.max_error) == pytest.approx(find(method).order, abs=0.2)

@@ -12,7 +12,7 @@ from compare.course import Course
 from compare.extras import score
 from compare.methods import find
 from compare.precision import precision
-from reference import Cycloid, Pendulum, Tautochrone
+from reference import Cycloid, Pendulum, PolarBrachistochrone, Tautochrone, Tunnel
 from reference.problems.cycloid import CycloidalPendulum
 
 if TYPE_CHECKING:
@@ -56,6 +56,21 @@ def test_libration_rotation_and_swing_have_their_periods(problem: Problem) -> No
     (found,) = own("rk4", problem, 4096)
     assert 0 < abs(found.relative_error) < 1e-6
     assert found.period == pytest.approx(float(problem.certified("period")), rel=1e-6)
+
+
+@pytest.mark.parametrize("problem", [PolarBrachistochrone(z0=0.5), PolarBrachistochrone(z0=0.9), Tunnel(z0=0.5)])
+def test_in_a_central_field_the_period_is_from_one_lowest_point_to_the_next(problem: Problem) -> None:
+    (coarse,), (fine,) = (own("gauss4", problem, n, "float128") for n in (4096, 8192))
+    assert math.log2(coarse.relative_error / fine.relative_error) == pytest.approx(4, abs=0.05)
+    assert fine.period == pytest.approx(2 * float(problem.certified("descent_time")), rel=1e-8)
+
+
+@pytest.mark.parametrize("method", ["euler", "implicit_euler"])
+def test_a_period_is_found_where_the_passages_are_many_steps_from_the_exact_ones(method: str) -> None:
+    """Of a method of order one they are as many steps away at every N."""
+    (coarse,), (fine,) = (own(method, PolarBrachistochrone(z0=0.5), n) for n in (2**15, 2**16))
+    assert abs(fine.relative_error) * fine.period * 3 / 2 > 32 * fine.h
+    assert coarse.relative_error / fine.relative_error == pytest.approx(2, abs=0.02)
 
 
 def test_no_passage_is_no_period() -> None:

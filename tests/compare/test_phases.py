@@ -11,9 +11,10 @@ import pytest
 
 from compare.course import Course
 from compare.extras import score
+from compare.march import march
 from compare.methods import find
 from compare.precision import precision
-from reference import Pendulum, PolarBrachistochrone, Tautochrone
+from reference import Descent, Pendulum, PolarBrachistochrone, Tautochrone, Tunnel
 from reference.problems.cycloid import CycloidalPendulum
 
 if TYPE_CHECKING:
@@ -96,6 +97,26 @@ def test_a_march_that_overflows_has_no_phase() -> None:
     assert np.isnan(found.end_phase_error)
 
 
+@pytest.mark.parametrize("problem", [PolarBrachistochrone(z0=0.5), PolarBrachistochrone(z0=0.95), Tunnel(z0=0.3)])
+def test_in_a_central_field_phase_and_amplitude_err_with_the_order_of_the_method(problem: Problem) -> None:
+    coarse, fine = (phase("gauss4", problem, n, t_end=4, name="float128") for n in (1024, 2048))
+    assert math.log2(coarse.end_phase_error / fine.end_phase_error) == pytest.approx(4, abs=0.05)
+    assert math.log2(coarse.end_amplitude_error / fine.end_amplitude_error) == pytest.approx(4, abs=0.05)
+    assert (coarse.lost, fine.lost) == (0, 0)
+
+
+def test_a_small_error_in_a_central_field_is_one_of_phase_along_the_orbit_where_nothing_else_is_wrong() -> None:
+    """d(z)/d(phase) is z' T/(2 pi): of a march that keeps the invariant to rounding, the phase is all of the error."""
+    problem = PolarBrachistochrone(z0=0.5)
+    course = Course(problem, 4096, Fraction(3), FLOAT64)
+    found = phase("rk4_projected", problem, n=4096, t_end=3)
+    (result,) = march(find("rk4_projected"), [course.lane], FLOAT64)
+    error = course.errors(result.states)[-1, 0]
+    period = 2 * float(problem.descent_time())
+    assert found.max_amplitude_error < 1e-14
+    assert error == pytest.approx(course.truth[-1, 1, 0] * period / (2 * math.pi) * found.end_phase_error, rel=1e-3)
+
+
 def test_a_motion_without_known_orbits_has_no_record() -> None:
-    course = Course(PolarBrachistochrone(z0=0.5), 128, Fraction(2), FLOAT64)
+    course = Course(Descent("parabola"), 128, Fraction(1, 2), FLOAT64)
     assert score(find("rk4"), [course], FLOAT64, ("phase",))["phase"] == []

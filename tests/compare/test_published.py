@@ -21,7 +21,7 @@ from compare.paths import CycloidCurve
 from compare.precision import precision
 from compare.published.dense import dense
 from compare.published.entry import reproduce
-from compare.published.source import sources, tables
+from compare.published.source import figure, figures, sources, tables
 from reference import Pendulum
 from reference.arithmetic import NUMPY
 from reference.problems.pendulum.equations import energy
@@ -60,6 +60,7 @@ def test_the_tables_have_all_their_entries(found):
         "table9": 36,
         "table12": 60,
         "figure7": 0,
+        "curves": 0,
     }
 
 
@@ -197,14 +198,29 @@ def test_a_column_must_have_an_entry_for_every_row():
         replace(table, columns=(cut,))
 
 
-def test_every_table_names_its_page_and_a_known_source():
+def test_every_table_and_figure_names_its_page_and_a_known_source():
     assert {table.source for table in tables()} == set(sources())
     assert [(table.item, table.page) for table in tables()] == [
         ("report table 8", 6),
         ("report table 9", 6),
         ("report table 12", 8),
         ("thesis figure 7", 14),
+        ("thesis figure 7, continued", 14),
     ]
+    assert all(figure.item.split()[0] in sources() for figure in figures())
+
+
+def test_the_thesis_prints_the_pages_of_its_figures_and_the_report_has_them_inferred():
+    for one in (*tables(), *figures()):
+        assert bool(one.inferred) == one.item.startswith("report")
+        assert one.cited == f"{one.item.capitalize()}, page {one.page}" + (" (inferred)" if one.inferred else "")
+    pages = [figure.page for figure in figures() if not figure.inferred]
+    assert pages == [14, 14, 15, 16, 16, 17, 17, 18, 20, 21]  # the thesis' list of figures, from figure 6 to 15
+
+
+def test_an_unknown_figure_has_no_page():
+    with pytest.raises(ValueError, match="figure 'thesis-figure-5' is unknown, perhaps thesis-figure-"):
+        figure("thesis-figure-5")
 
 
 def test_json_is_a_list_of_objects(capsys):
@@ -244,6 +260,8 @@ def test_the_readable_forms_mark_what_differs_and_sum_up(form, capsys):
         "36 published entries; 35 reproduced to the last digit; 1 of those that claim to be exact wrong",
         "60 published entries; 60 reproduced to the last digit; 1 of those that claim to be exact wrong",
         "9 entries, none of them printed",
+        "95 entries, none of them printed",
+        "page 8 (inferred)",
     ):
         assert line in out
     if form == "text":
@@ -254,7 +272,7 @@ def test_an_unknown_table_is_one_sentence(capsys):
     assert main(["published", "table10"]) == 2
     assert capsys.readouterr().err == (
         "error: table 'table10' is unknown, perhaps table12 or table9 or table8; "
-        "accepted are table8, table9, table12, figure7.\n"
+        "accepted are table8, table9, table12, figure7, curves.\n"
     )
 
 

@@ -16,7 +16,7 @@ import pytest
 from compare import rendering
 from compare.__main__ import main
 from compare.march import march, march_alone
-from compare.methods import find
+from compare.methods import METHODS, find
 from compare.precision import precision
 from compare.report import run as running
 from compare.report.families import family
@@ -27,7 +27,7 @@ from compare.report.run import plan, run
 from compare.report.table import TABLES, sections
 from compare.report.work import Task, work
 from compare.scores import Course
-from reference import Pendulum
+from reference import Descent, Pendulum
 from reference.partial import BusyError, partial
 
 SMALL = {
@@ -135,6 +135,88 @@ def test_two_reports_into_one_folder_do_not_mix(tmp_path):
     wanted = plan(**SMALL)
     with partial(tmp_path / "report", wanted.identity), pytest.raises(BusyError, match="report"):
         run(wanted, tmp_path / "report")
+
+
+CURVES = {**SMALL, "problems": ["cycloid-curve", "descent", "polar-z", "polar-psi"], "amplitudes": None}
+
+
+def test_curves_and_descents_end_where_they_do_and_motions_where_they_are_asked_to():
+    wanted = plan(**{**CURVES, "problems": ["pendulum", *CURVES["problems"]]})
+    ends = {(task.family, task.amplitude): task.t_end for task in wanted.tasks}
+    assert {end for (name, _), end in ends.items() if name == "pendulum"} == {3.0}
+    assert ends["cycloid-curve", 1.0] == 2 * 0.99995
+    assert ends["polar-z", 0.5] == 1 - 0.50005
+    assert ends["polar-psi", 0.1] == 6.25
+    assert 0.999 < ends["descent", "quartic"] / float(Descent("quartic").descent_time()) < 1
+    assert wanted.parameters["t_end"] == 3.0
+    assert wanted.parameters["ends"]["descent, curve = quartic"] == ends["descent", "quartic"]
+    assert "t_end" not in plan(**CURVES).parameters
+    assert {name for names in wanted.left_out.values() for name in names} == {"verlet"}
+
+
+def test_numbers_are_for_the_families_that_differ_in_one_and_names_for_those_that_differ_in_a_curve():
+    mixed = plan(**{**CURVES, "problems": ["polar-psi", "descent"], "amplitudes": [0.25, "parabola", "cubic"]})
+    assert list(dict.fromkeys((task.family, task.amplitude) for task in mixed.tasks)) == [
+        ("polar-psi", 0.25),
+        ("descent", "parabola"),
+        ("descent", "cubic"),
+    ]
+    numbers_alone = plan(**{**CURVES, "problems": ["polar-psi", "descent"], "amplitudes": [0.25]})
+    assert {task.amplitude for task in numbers_alone.tasks} == {0.25, "quartic", "cycloid"}
+
+
+@pytest.mark.parametrize(
+    ("problem", "amplitude", "says"),
+    [
+        ("pendulum", "quartic", "amplitudes has 'quartic'; of pendulum, numbers are accepted"),
+        ("descent", 0.5, "amplitudes has 0.5; of descent, names are accepted: they differ in a curve"),
+        ("descent", "quintic", "curve 'quintic' is unknown"),
+        ("polar-z", 1.5, "z0 is 1.5"),
+        ("cycloid-curve", -1.0, "radius is -1"),
+    ],
+)
+def test_what_no_problem_takes_is_refused(problem, amplitude, says):
+    with pytest.raises(ValueError, match=says):
+        plan(**{**CURVES, "problems": [problem], "amplitudes": [amplitude]})
+
+
+def test_a_report_on_curves_is_kept_and_goes_on_and_names_its_figures(tmp_path, monkeypatch):
+    wanted = plan(**{**CURVES, "solvers": ["DOP853"]})
+
+    def stop(done, _total):
+        if done == 2:
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        run(wanted, tmp_path / "report", progress=stop)
+    again = []
+    monkeypatch.setattr(running, "work", lambda task: again.append(task) or work(task))
+    report = run(wanted, tmp_path / "report")
+    assert len(again) == len(wanted.tasks) - 2
+    assert all(point.failure == "" and point.max_error > 0 for point in report.points)
+    assert (tmp_path / "report" / "descent-curve-quartic-evaluations.svg").is_file()
+    titles = [section.title for section in sections(report)]
+    assert any(title.startswith("Evaluations, descent, curve = quartic: ") for title in titles)
+    assert any("polar-z, z0 = 0.5" in title and ", in rad, is below" in title for title in titles)
+
+
+@pytest.mark.parametrize(("name", "amplitude"), [("cycloid-curve", 1.0), ("descent", "cubic"), ("polar-psi", 0.5)])
+def test_methods_and_solvers_agree_on_a_curve(name, amplitude):
+    one = family(name)
+    end = float(one.end(one.build(amplitude)))
+    fixed = work(Task(name, amplitude, "gauss4", "method", (4096,), end, 100_000))
+    adaptive = work(Task(name, amplitude, "scipy.DOP853", "solver", (1e-12,), end, 100_000))
+    assert (fixed[0].failure, adaptive[0].failure) == ("", "")
+    assert fixed[0].max_error < (1e-3 if name == "cycloid-curve" else 1e-11)
+    assert adaptive[0].max_error < 1e-9
+
+
+def test_all_methods_are_those_that_fit_the_problem():
+    wanted = plan(**{**SMALL, "problems": ["tautochrone"], "amplitudes": [1.0], "methods": ["all"], "solvers": ()})
+    names = [task.name for task in wanted.tasks]
+    assert {"euler", "rk4", "gauss6", "avf", "abm4"} < set(names)
+    assert "verlet" not in names
+    assert sorted([*names, *wanted.left_out["tautochrone, angle = 1.0 rad"]]) == sorted(m.name for m in METHODS)
 
 
 def test_a_pool_of_processes_finds_what_one_process_does(tmp_path):
@@ -258,6 +340,7 @@ def test_the_command_writes_a_page_and_prints_its_tables(tmp_path, capsys):
         (["--executor", "cloud"], "executor 'cloud' is unknown"),
         (["--jobs", "0"], "--jobs 0 is not a number of processes"),
         (["--amplitudes", "9"], "theta0 is 9"),
+        (["--amplitudes", "quarter_ellipse"], "of pendulum, numbers are accepted"),
         (["--methods", "none", "--solvers", "none"], "nothing to report on"),
         (["--problems", "moon"], "problem 'moon' is unknown"),
     ],

@@ -7,6 +7,9 @@ from typing import Any
 import pytest
 
 import compare
+from compare import scoring
+from compare.methods import DEFAULT, METHODS, find
+from compare.paths import PolarByPsi
 from compare.studies.pendulum import study
 from reference import Pendulum
 from reference.executors import processes
@@ -29,6 +32,20 @@ def test_scores_in_a_wide_format_are_numbers_too() -> None:
     (cell,) = compare.error_vs_n(Pendulum("1/2"), methods=("suzuki4",), n=[512], precision="mp:160", t_end="2.5")
     assert 0 < cell.max_error < 1e-6
     assert not cell.floor
+
+
+def test_all_stands_for_every_method_once_in_their_order() -> None:
+    assert scoring.named(["all"]) == METHODS
+    assert scoring.named([" All ", "rk4"]) == METHODS
+    assert scoring.named(["rk4", "all"]) == (find("rk4"), *(method for method in METHODS if method.name != "rk4"))
+    assert scoring.named(None) == DEFAULT
+
+
+def test_of_all_methods_those_that_do_not_fit_the_problem_are_left_out_and_named(monkeypatch) -> None:
+    monkeypatch.setattr(scoring, "METHODS", tuple(map(find, ("rk4", "verlet", "avf", "ab4"))))
+    found = scoring.score_all([PolarByPsi("1/2")], ["all"], n=[128], t_end=6)
+    assert [cell.method for cell in found.cells] == ["rk4", "adams_bashforth4"]
+    assert list(found.left_out.values()) == [("verlet", "avf")]
 
 
 @pytest.mark.parametrize(

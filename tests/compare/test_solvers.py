@@ -22,6 +22,7 @@ from compare.solvers.solver import Answer, Solver
 from compare.studies import solvers as study_module
 from compare.studies.solvers import questions, study
 from reference import Pendulum
+from reference.executors import processes
 
 PENDULUM = Pendulum(1.0)
 LIMIT = 20_000
@@ -221,6 +222,36 @@ def test_events_are_held_against_the_proven_ones(name):
 def events_of(times, **options):
     solver = made(truth_and(0.0), events=lambda _: times, **options)
     return score_events(solver, question(t_end=10.0), CROSSINGS)
+
+
+def test_other_processes_find_the_same_events_in_the_same_order(monkeypatch):
+    monkeypatch.setattr("compare.solvers.asking.WORTH_PROCESSES", 0.0)
+    options = {"solvers": ["RK23", "taylor", "odeint"], "rtol": [1e-3, 1e-6], "t_end": 4.0, "theta0": [1.0, 2.0]}
+    alone = study(**options)
+    with processes(2) as executor:
+        assert study(**options, executor=executor).events == alone.events
+    assert [(event.solver, event.theta0, event.rtol) for event in alone.events] == [
+        (solver, theta0, rtol)
+        for solver in ("scipy.RK23", "heyoka.taylor")
+        for theta0 in (1.0, 2.0)
+        for rtol in (1e-3, 1e-6)
+    ]
+
+
+def test_events_are_not_asked_of_a_solver_that_gave_no_states():
+    found = study(solvers=["RK23"], rtol=[1e-3, 1e-9], t_end=4.0, max_evaluations=1000)
+    assert [bool(cell.failure) for cell in found.error_vs_rtol] == [False, True]
+    assert [event.rtol for event in found.events] == [1e-3]
+
+
+def test_a_call_is_repeated_three_times_and_a_long_one_is_not(monkeypatch):
+    for passed, made_calls in ((0.0, 3), (0.06, 2), (0.5, 1)):
+        clock, calls = iter(range(100)), []
+        monkeypatch.setattr(
+            "compare.solvers.score.time.perf_counter", lambda clock=clock, passed=passed: next(clock) * passed
+        )
+        scored(made(lambda q, calls=calls: (calls.append(1), truth_and(0.0)(q))[1]))
+        assert len(calls) == made_calls
 
 
 def test_missed_doubled_and_invented_events_are_told_apart():

@@ -16,6 +16,7 @@ from compare.grid import text_width
 from compare.solvers import plot
 from compare.solvers.records import EventCell, SolverCell, SolverEntry, SolverStudy
 from compare.solvers.table import TABLES, sections
+from compare.studies.solvers import QUICK_LIMIT, QUICK_RTOL
 
 RTOL = tuple(float(f"1e-{k}") for k in range(3, 14))
 
@@ -178,6 +179,32 @@ def test_the_command_prints_the_tables_and_writes_them_with_figures(tmp_path, ca
     assert (tmp_path / "solvers-pendulum.json").read_text() == out
     assert len(list(tmp_path.glob("*.png"))) == len(list(tmp_path.glob("*.svg"))) == 3
     assert err.startswith("wrote solvers-pendulum.json, ")
+
+
+def test_the_help_says_what_is_asked_by_default(capsys):
+    with pytest.raises(SystemExit):
+        main(["solvers", "--help"])
+    said = " ".join(capsys.readouterr().out.split())
+    first, second, *_, last = (f"{rtol:.0e}".replace("e-0", "e-") for rtol in QUICK_RTOL)
+    assert f"(default {first}, {second}, ... {last})" in said
+    assert f"(default {QUICK_LIMIT})" in said
+
+
+def test_where_no_solver_is_installed_the_tables_say_so_and_the_exit_code_is_1(monkeypatch, capsys):
+    monkeypatch.setattr("compare.solvers.solver.find_spec", lambda _: None)
+    assert main(["solvers", "--solvers", "RK45,heyoka", "--rtol", "1e-3"]) == 1
+    out, err = capsys.readouterr()
+    assert "pip install scipy" in out
+    assert "pip install heyoka" in out
+    assert err == "error: none of these solvers could be scored; the tables say why.\n"
+
+
+def test_where_every_solver_fails_the_exit_code_is_1_and_where_one_is_scored_0(capsys):
+    words = ["solvers", "--rtol", "1e-16", "--t-end", "1", "--solvers"]
+    assert main([*words, "odeint"]) == 1
+    assert "Illegal input detected" in capsys.readouterr().out
+    assert main([*words, "odeint,heyoka"]) == 0
+    assert capsys.readouterr().err == ""
 
 
 @pytest.mark.parametrize(

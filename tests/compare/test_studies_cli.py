@@ -72,6 +72,7 @@ def test_a_pendulum_can_be_set_going(capsys):
         (["tautochrone", "--angle", "-1,3", "--radius", "2"], {"angle": (-1.0, 3.0), "radius": 2.0}),
         (["descent", "--curve", "2*x", "--start", "pi", "--end", "0"], {"curve": ("2*x",), "start": "pi", "end": "0"}),
         (["polar", "--z0", "0.5", "--z-end", "0.6", "--tau-end", "2"], {"z0": (0.5,), "z_end": 0.6, "tau_end": 2.0}),
+        (["tautochrone", "--methods", "all"], {"methods": ("all",)}),
         (["pendulum", "--compensated", "--scores", "growth"], {"compensated": "beside", "scores": ("growth",)}),
     ],
 )

@@ -235,6 +235,35 @@ def test_growth_has_a_law_an_exponent_and_a_mark_for_rounding():
     assert re.search(r"^rk4 +- +1\.20 ± 0\.25", text, re.MULTILINE)
 
 
+def blank(growth):
+    return dataclasses.replace(growth, exponent=math.nan, interval=math.nan, law="", windows=0)
+
+
+@pytest.mark.parametrize("form", ["text", "markdown"])
+def test_where_no_growth_is_known_one_sentence_says_what_it_takes(form):
+    study = extra_study("growth")
+    text = table.render(dataclasses.replace(study, growth=tuple(map(blank, study.growth))), form)
+    assert text.count("Growth,") == 1
+    assert "no law can be told; one takes at least 32 periods (a later end of the march: --t-end), 128 steps" in text
+    assert "nan" not in text
+
+
+def test_one_growth_that_is_known_is_shown_among_others_that_are_not():
+    study = extra_study("growth")
+    first, *others = study.growth
+    text = table.render(dataclasses.replace(study, growth=(first, *map(blank, others))))
+    assert text.count("Growth,") == 3
+    assert "nan means fewer than 32 periods" in text
+
+
+def test_a_law_takes_no_periods_where_there_are_none():
+    study = extra_study("growth")
+    case = dataclasses.replace(study.cases[0], cycle="s")
+    growth = tuple(dataclasses.replace(blank(growth), case=case) for growth in study.growth)
+    (section,) = table.sections(dataclasses.replace(study, cases=(case,), growth=growth))
+    assert section.title.endswith("no law can be told; one takes at least 128 steps, and errors that are numbers")
+
+
 def test_a_defect_that_no_method_has_is_no_column():
     symplecticity, reversibility = table.sections(extra_study("defects"))
     assert [column.label for column in symplecticity.grids[0].columns] == ["N", "h [s]", "verlet"]

@@ -1,0 +1,34 @@
+"""A motion as panels of successive times, from left to right and downwards."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from compare.figures.scene import X_LABEL, Y_LABEL, draw_bodies, draw_paths
+
+if TYPE_CHECKING:
+    from compare.figures.motion import Motion
+
+__all__ = ["draw"]
+
+SIZE = 10.5, 6.0
+"""Inches."""
+
+
+def draw(motion: Motion) -> Figure:
+    """The figure, in the style in force."""
+    figure = Figure(figsize=SIZE, layout="constrained")
+    panels = figure.subplots(2, -(-len(motion.panels) // 2), sharex=True, sharey=True)
+    places = np.stack([body.places(motion.panels) for body in motion.bodies], axis=1)
+    for time, now, axes in zip(motion.panels, places, panels.flat, strict=True):
+        draw_paths(axes, motion, labelled=False)
+        draw_bodies(axes, motion, now)
+        axes.set_title(f"t = {time:.3f} s", fontsize=10)
+    handles = [handle for handle in panels.flat[0].get_lines() if handle.get_marker() != "None"]
+    figure.legend(handles=handles, loc="outside right upper", frameon=False)
+    figure.supxlabel(f"{X_LABEL};  {motion.note}", fontsize=10)
+    figure.supylabel(Y_LABEL, fontsize=10)
+    return figure

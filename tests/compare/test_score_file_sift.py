@@ -1,0 +1,199 @@
+"""Rows of a long file that cannot matter are left out, and nothing that is reported changes for it."""
+
+from __future__ import annotations
+
+import json
+import math
+
+import numpy as np
+import pytest
+
+from compare.__main__ import main
+from compare.submission import bounds, sift
+from compare.submission.arrays import Sliced, chunks
+from compare.submission.chunk import Chunk, Doubles, Row
+from compare.submission.columns import Columns
+from compare.submission.crew import Crew
+from compare.submission.judge import Judge
+from compare.submission.record import Running
+from compare.submission.show import json_text
+from compare.submission.sift import BoundError, Sift
+from compare.submission.written import of_decimal
+from reference import Pendulum
+
+SWING, TURNING = Pendulum(1.0), Pendulum(3, omega0=7)
+NARROW, WIDE = Pendulum(1e-6), Pendulum(3.1415)
+BACK = Pendulum(-7, omega0=-9.5)
+RANDOM = np.random.default_rng(11)
+T = np.arange(1, 3001) / 16
+
+
+def chunked(numbers: np.ndarray, size: int = 512) -> list[Chunk]:
+    columns = Columns(("t", "theta", "omega"))
+    found = [Sliced(numbers.shape[:1], numbers.dtype, lambda rows, i=i: numbers[rows, i]) for i in range(3)]
+    return list(chunks(columns, found, size))
+
+
+def judged(problem: Pendulum, parts: list[Chunk], *, sifted: bool, keep: int = 9) -> tuple[str, int]:
+    """The summary, and how many rows were judged exactly."""
+    judge, running, count = Judge(problem), Running(("theta", "omega"), keep), 0
+    crew = Crew(judge, others=0)
+    points = Sift(judge, running, crew).points if sifted else crew.points
+    for part in parts:
+        found = points(part)()
+        running.add(found)
+        count += len(found)
+    return json_text(judge.score(running, "as written")), count
+
+
+def verlet(rows: int, h: float) -> np.ndarray:
+    table, theta, omega = np.empty((rows, 3)), 1.0, 0.0
+    for n in range(rows):
+        table[n] = n * h, theta, omega
+        omega -= h / 2 * 9.81 * math.sin(theta)
+        theta += h * omega
+        omega -= h / 2 * 9.81 * math.sin(theta)
+    return table
+
+
+def spoiled(problem: Pendulum, size: float) -> np.ndarray:
+    y = problem.state(T)
+    return np.column_stack([T, y + RANDOM.standard_normal(y.shape) * size * np.abs(y).max(axis=0)])
+
+
+@pytest.mark.parametrize("problem", [SWING, TURNING, NARROW, WIDE, BACK])
+@pytest.mark.parametrize("size", [1e-1, 1e-4, 1e-9, 1e-13, 0.0])
+def test_the_summary_and_the_rows_shown_are_those_of_all_rows_judged_exactly(problem, size):
+    parts = chunked(spoiled(problem, size))
+    assert judged(problem, parts, sifted=True)[0] == judged(problem, parts, sifted=False)[0]
+
+
+def test_of_an_integrators_rows_few_are_judged_exactly():
+    text, count = judged(SWING, chunked(verlet(20_000, 1 / 64)), sifted=True)
+    assert json.loads(text)["rows"] == 20_000
+    assert count < 2_000
+
+
+@pytest.mark.parametrize("place", [700, 1023, 1024, 2999])
+def test_one_wrong_row_among_thousands_is_found(place):
+    table = spoiled(SWING, 1e-6)
+    table[place, 1] += 1e-3
+    found = json.loads(judged(SWING, chunked(table), sifted=True)[0])
+    assert found["worst_row"] == place + 1 or found["max_errors"]["theta"] == pytest.approx(1e-3, rel=0.01)
+    assert found["max_error"] == pytest.approx(1e-3, rel=0.01)
+
+
+def test_a_state_over_the_top_is_found_among_thousands():
+    table = spoiled(SWING, 1e-6)
+    table[1500, 2] = 9.0
+    table[2500, 2] = -9.0
+    text = judged(SWING, chunked(table), sifted=True)[0]
+    assert "Row 1501, t = 93.8125, is the first whose state is on no orbit" in json.loads(text)["notes"][0]
+    assert json.loads(text)["max_phase_error"] is None
+
+
+def test_decimals_of_few_digits_that_are_right_have_all_of_theirs():
+    states = SWING.state(T)
+    texts = [[f"{t!r}", f"{a:.5e}", f"{b:.5e}"] for t, (a, b) in zip(T.tolist(), states.tolist(), strict=True)]
+    rows = [Row(*_written(line), f"row {n}") for n, line in enumerate(texts, 1)]
+    parts = []
+    for first in range(0, len(rows), 500):
+        part = rows[first : first + 500]
+        numbers = np.array([[float(row.t.value), *(float(x.value) for x in row.state)] for row in part])
+        parts.append(Chunk(len(part), part.__getitem__, Doubles(numbers, 6)))
+    text, _ = judged(SWING, parts, sifted=True)
+    assert text == judged(SWING, parts, sifted=False)[0]
+    assert json.loads(text)["worst_digits"] == 6
+
+
+def _written(line: list[str]):
+    t, *state = map(of_decimal, line)
+    return t, tuple(state)
+
+
+@pytest.mark.parametrize("problem", [SWING, TURNING, NARROW, WIDE, BACK, Pendulum("0.5", omega0="-2")])
+def test_no_exact_row_is_outside_its_bounds(problem):
+    """States near the motion, far from it, near the separatrix and turns away, at times up to 10^6 s."""
+    t = np.sort(RANDOM.uniform(0, 10.0 ** RANDOM.uniform(0, 6, 400)))
+    y = problem.state(t)
+    size = np.abs(y).max(axis=0)
+    y[::2] += RANDOM.standard_normal((200, 2)) * 10.0 ** RANDOM.uniform(-17, 1, (200, 1)) * size
+    y[::7, 0] += 2 * math.pi * RANDOM.integers(-9, 9, len(y[::7]))
+    edge = 2 * math.sqrt(9.81) * np.cos(y[::5, 0] / 2) * (1 + 10.0 ** RANDOM.uniform(-17, -1, 80))
+    y[::5, 1] = edge * RANDOM.choice([-1, 1], 80)
+    numbers = np.column_stack([t, y])
+    found = bounds.bounder(problem).bounds(numbers, 0.0)
+    judge = Judge(problem)
+    judge.expect([53 * math.log10(2)])
+    points = judge.some(range(400), chunked(numbers, 400)[0].rows())
+    for place, point in enumerate(points):
+        sift._hold(point, found, place)
+
+
+def test_the_bounds_are_near_what_they_bound():
+    table = spoiled(SWING, 1e-4)
+    found = bounds.bounder(SWING).bounds(table, 0.0)
+    points = Judge(SWING).points(chunked(table, len(table))[0].rows())
+    phases = np.array([abs(point.phase_error) for point in points])
+    assert np.all(found.found.phase - phases < 1e-11)
+    assert np.all(found.errors - np.abs([point.errors for point in points]) < 1e-12)
+
+
+def test_a_bound_that_is_wrong_is_an_error_and_not_a_result(monkeypatch):
+    monkeypatch.setattr("compare.submission.bounds.SLACK", -1e-3)
+    with pytest.raises(BoundError, match="was found outside its bounds"):
+        judged(SWING, chunked(verlet(2000, 1 / 64)), sifted=True)
+
+
+LATE = {
+    "0,0.5,0": "t = 0 in line 2103 comes after t = 2100",
+    "2100,0.5,0": "t = 2100 in line 2103 is repeated",
+    "2101,nan,0": "theta in line 2103 is nan, which is not finite",
+    "2101,0.5": "line 2103 has 2 fields; 3 are accepted",
+    "2101,0.5,1e-99999": "omega in line 2103 is '1e-99999', beyond the limit",
+    "2101,0,5,1": "line 2103 has 4 fields; 3 are accepted",
+    "2101,1_0,1": "theta in line 2103 is '1_0', which is not a number",
+}
+
+
+@pytest.mark.parametrize("line", LATE)
+def test_a_mistake_far_down_a_long_table_is_found(line, tmp_path, capsys):
+    rows = [f"{j},{0.5 + j / 1e6},0.25" for j in range(2101)]
+    (tmp_path / "a.csv").write_text("\n".join(["t,theta,omega", *rows, line]))
+    assert main(["score", str(tmp_path / "a.csv"), "--theta0", "1"]) == 2
+    out, err = capsys.readouterr()
+    assert (out, err.count("\n")) == ("", 1)
+    assert LATE[line] in err
+
+
+def test_a_number_with_more_digits_far_down_a_table_raises_what_the_input_holds(tmp_path, capsys):
+    rows = [f"{j},0.5,0.25" for j in range(2200)]
+    rows[2150] = f"2150,0.{'12345' * 6},0.25e-3"
+    (tmp_path / "a.csv").write_text("\n".join(["t,theta,omega", *rows]))
+    assert main(["score", str(tmp_path / "a.csv"), "--theta0", "1", "--format", "json"]) == 0
+    assert json.loads(capsys.readouterr().out)["digits_held"] == 30
+
+
+@pytest.mark.parametrize("form", ["csv", "json"])
+def test_other_processes_find_the_same_in_the_same_order(form, tmp_path, capsys, monkeypatch):
+    """Rows that are right to their last digit, so that every one is judged exactly."""
+    rows = [",".join(map(repr, row)) for row in spoiled(SWING, 0.0).tolist()]
+    (tmp_path / "a.csv").write_text("\n".join(["t,theta,omega", *rows]))
+    np.save(tmp_path / "a.npy", spoiled(SWING, 0.0))
+    monkeypatch.setattr("compare.submission.command.CHUNK", 100)
+    for name in ("a.csv", "a.npy"):
+        outputs = []
+        for cores in (1, 3):
+            monkeypatch.setattr("compare.submission.crew.os.cpu_count", lambda cores=cores: cores)
+            assert main(["score", str(tmp_path / name), "--theta0", "1", "--format", form]) == 0
+            outputs.append(capsys.readouterr().out)
+        assert outputs[0] == outputs[1]
+        assert form == "json" or outputs[0].count("\n") == 3001
+
+
+def test_a_short_file_and_other_problems_are_judged_row_by_row():
+    _, count = judged(SWING, chunked(verlet(100, 1 / 64)), sifted=True)
+    assert count == 100
+    separatrix = Pendulum(0, omega0=2, g=1)
+    _, count = judged(separatrix, chunked(np.column_stack([T, separatrix.state(T)])), sifted=True)
+    assert count == 3000
