@@ -35,6 +35,8 @@ __all__ = ["INLINE_SINE", "Lane", "March", "StartInvariant", "iterations_for", "
 
 CLOCKED_RUNS, BRIEF = 3, 0.02
 """A march alone of less than BRIEF seconds is clocked this often."""
+WAITING = 256
+"""Blocks whose last states wait to be kept."""
 CONVERGED = 1000
 """A last iteration may change the state by this many roundings."""
 
@@ -179,6 +181,7 @@ class _Group:
         out = self.fmt.zeros(spare.shape)
         events = self._events()
         closing = set((-(-self.ends // self.steps) * self.steps).tolist())
+        waiting: list[tuple[np.ndarray, np.ndarray]] = []
         taken = 0
         began = time.perf_counter()
         while lanes.shape[1]:
@@ -188,8 +191,12 @@ class _Group:
                 self.block(lanes, parameters, out)
             taken += self.steps
             lanes, out, spare = out[-rows:], spare, out
-            if self.every or taken in events:
+            if self.every:
                 self._keep(spare.reshape(-1, rows, lanes.shape[1]), taken, events.get(taken))
+            elif taken in events:
+                waiting.append((events[taken], spare[: self.dimension].copy()))
+            if len(waiting) == WAITING or (waiting and taken in closing):
+                self._settle(waiting)
             if taken in closing:
                 self._close(spare[-2:], taken)
                 width = self._width(taken)
@@ -235,16 +242,22 @@ class _Group:
         return dict(zip(ends.tolist(), rows, strict=True))
 
     def _keep(self, outputs: np.ndarray, taken: int, events: np.ndarray | None) -> None:
-        """Keep the wanted states of a block that ended at step ``taken``, and with every state the largest maxima."""
+        """Keep the wanted states of a block of every state that ended at step ``taken``, and the largest maxima."""
         if events is not None:
             lane, sample, index = events
             self.states[lane, sample] = outputs[index, : self.dimension, lane]
-        if self.every:
-            count = min(len(self.lanes), outputs.shape[2])
-            values = outputs[:, -2:, :count].astype(np.float64)
-            step = np.arange(taken - self.steps, taken)[:, None, None]
-            largest = np.where(step < self.ends[:count], values, 0.0).max(axis=0)
-            self.maxima[:count] = np.maximum(self.maxima[:count], largest.T)
+        count = min(len(self.lanes), outputs.shape[2])
+        values = outputs[:, -2:, :count].astype(np.float64)
+        step = np.arange(taken - self.steps, taken)[:, None, None]
+        largest = np.where(step < self.ends[:count], values, 0.0).max(axis=0)
+        self.maxima[:count] = np.maximum(self.maxima[:count], largest.T)
+
+    def _settle(self, waiting: list[tuple[np.ndarray, np.ndarray]]) -> None:
+        """Keep the wanted ones of the last states of many blocks: together they take little longer than one does."""
+        lane, sample, _ = np.concatenate([events for events, _ in waiting], axis=1)
+        block = np.repeat(np.arange(len(waiting)), [events.shape[1] for events, _ in waiting])
+        self.states[lane, sample] = np.stack([states for _, states in waiting])[block, :, lane]
+        waiting.clear()
 
     def _close(self, maxima: np.ndarray, taken: int) -> None:
         """Keep the largest drift and change of the lanes that end here, where blocks carry them along."""

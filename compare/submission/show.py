@@ -94,7 +94,7 @@ def summary_line(score: Score) -> str:
     ]
     for what, value, units in (
         ("phase", score.max_phase_error, " rad"),
-        ("amplitude", score.max_amplitude_error, f" {score.units[0]}"),
+        ("amplitude", score.max_amplitude_error, f" {score.units[0]}".removesuffix(" 1")),
         ("energy", score.max_energy_error, ""),
     ):
         parts.append(f"{what} {_size(value)}{units}" if not math.isnan(value) else f"{what} -")

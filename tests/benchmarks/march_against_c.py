@@ -63,7 +63,8 @@ MARCH(verlet_drift, double a = -(g / l) * sin(q);, VERLET_STEP, FOLLOW)
 ROUNDS = 15
 C_STEPS = 300_000
 LANES = {"rk4": 2048, "verlet": 4096}
-STEPS, BATCH = 16, 32
+STEPS, BATCH = 32, 32
+"""As in long marches of many lanes."""
 LANE_STEPS = 6_000_000
 
 

@@ -53,7 +53,7 @@ def test_few_neighbours_tell_what_all_do(name: str, fmt: Any) -> None:
 
 @pytest.mark.parametrize("name", ["euler", "heun", "verlet", "rk4", "yoshida6", "gauss4", "bdf2", "projected_rk4"])
 def test_rounding_is_not_beyond_its_bound(name: str) -> None:
-    """A bound on random steps, not on the worst ones: the same steps in binary128 stand where truncation alone leads."""
+    """A bound on random steps, not the worst: the same steps in binary128 stand where truncation alone leads."""
     courses = [Course(problem, 2**k, Fraction(10), FLOAT64) for problem in PROBLEMS for k in range(7, 14, 2)]
     wide = [Course(course.problem, course.n, course.n * course.h, FLOAT128) for course in courses]
     for one, own, its in zip(told(name, courses), marched(name, courses)[1], marched(name, wide)[1], strict=True):

@@ -272,7 +272,7 @@ def test_the_parameters_of_the_motion_are_those_of_the_curve():
         assert abs(gap) < 2.0**-1000
     assert problem.start == (0, 0)
     assert problem.rate() == pytest.approx(math.sqrt(9.81 / (4 * float(problem.radius()))))
-    assert problem.neighbour(lambda x: x, Fraction(1, 2**53)).end_x == 2 - Fraction(1, 2**19)
+    assert problem.neighbour(lambda x: x, Fraction(1, 2**53)).end_x == 2 - Fraction(1, 2**35)
 
 
 @pytest.mark.parametrize("arguments", [(1, 2), ("1/3", "2e-5", "9.81"), (1e-9, 3.0, 1)])
