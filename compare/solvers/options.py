@@ -23,7 +23,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--t-end", metavar="T", help="the last time in s (default 10)")
     parser.add_argument("--rtol", **several, help="tolerances (default 1e-3, 1e-5, ... 1e-11); may repeat")
     parser.add_argument("--solvers", **several, help="solvers or packages by name (default all); may repeat")
-    parser.add_argument("--max-evaluations", metavar="N", help="granted for one answer (default 100000)")
+    parser.add_argument("--max-evaluations", metavar="N", help="granted for one answer (default 150000)")
     parser.add_argument("--exact", action="store_true", help="take numbers as written: decimals, or fractions")
     parser.add_argument(
         "--format",

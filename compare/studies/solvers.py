@@ -31,7 +31,7 @@ __all__ = ["DEFAULT_LIMIT", "DEFAULT_RTOL", "QUICK_LIMIT", "QUICK_RTOL", "facts"
 DEFAULT_RTOL = tuple(float(f"1e-{k}") for k in range(3, 14))
 DEFAULT_LIMIT = 200_000
 QUICK_RTOL = DEFAULT_RTOL[:-2:2]
-QUICK_LIMIT = 100_000
+QUICK_LIMIT = 150_000
 """What one study takes: of the tolerances of a report the tightest two take half of the time."""
 TINY, HUGE = sys.float_info.min, sys.float_info.max
 
