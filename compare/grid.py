@@ -223,7 +223,7 @@ def _latex_cell(cell: str) -> str:
 def _latex_heading(label: str, width: int) -> str:
     """A heading, stacked over several lines where it is wider than its columns."""
     lines = [_latex_cell(line) for line in _wrap(label, width)]
-    stack = r"\\".join(lines)
+    stack = r"\\".join(f"{{{line}}}" if line.startswith(("[", "*")) else line for line in lines)  # no option of \\
     return stack if len(lines) == 1 else rf"\shortstack{{{stack}}}"
 
 

@@ -308,3 +308,12 @@ def test_a_case_without_a_conserved_quantity_has_no_drift():
     cells = tuple(dataclasses.replace(cell, case=case) for cell in study.error_vs_n)
     bare = dataclasses.replace(study, cases=(case,), error_vs_n=cells, order=(), energy_drift=())
     assert [section.title.partition(",")[0] for section in table.sections(bare)] == ["Error against N"]
+
+
+def test_a_line_of_a_latex_heading_is_not_read_as_an_option() -> None:
+    r"""`\\[s]` would ask for a vertical space of "s"."""
+    columns = (grid.Column("t [s]"), grid.Column("error order", "[one]"), grid.Column("*two x"))
+    text = grid.latex(grid.Section("name", "title", (grid.Grid(columns, (("1", "2", "3"),)),)))
+    assert r"\shortstack{t\\{[s]}}" in text
+    assert r"\\[" not in text
+    assert r"\\*" not in text
