@@ -8,17 +8,20 @@ from typing import TYPE_CHECKING, Any
 
 from compare import grid
 from compare.grid import Column, Grid
+from compare.records import FLOOR_FACTOR
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Sequence
 
 __all__ = [
     "DOUBT",
-    "ROUNDING_NOTE",
+    "NOTES",
+    "ROUNDING",
     "by_steps",
     "decided",
     "digits",
     "is_rounding",
+    "legend",
     "methods_of",
     "of_steps",
     "representative",
@@ -30,7 +33,12 @@ __all__ = [
 
 DOUBT = "~"
 """Before a digit that rounding may change."""
-ROUNDING_NOTE = "* means rounding: it may have made half of the number or more; ~ that it may change the last digit"
+ROUNDING = "*"
+"""Behind a number of which rounding may have made half or more."""
+NOTES = {
+    ROUNDING: f"{ROUNDING} means rounding, which may have made half of the number or more",
+    DOUBT: f"{DOUBT} means that rounding may change the digit; others that it may are not printed",
+}
 
 
 def methods_of(records: Iterable[Any]) -> list[str]:
@@ -151,12 +159,20 @@ def decided(value: float, rounding: float, forms: Sequence[str]) -> str:
 
 def starred(value: float, rounding: float) -> str:
     """``scientific``, with a mark where rounding decides."""
-    return f"{value:.0e}*" if is_rounding(value, rounding) else scientific(value, rounding)
+    return f"{value:.0e}{ROUNDING}" if is_rounding(value, rounding) else scientific(value, rounding)
 
 
 def is_rounding(value: float, rounding: float) -> bool:
     """Whether rounding may have made half of a number or more; a zero that nothing bounds is a zero."""
-    return bool(abs(value) <= 2 * rounding and rounding > 0)
+    return bool(abs(value) <= FLOOR_FACTOR * rounding and rounding > 0)
+
+
+def legend(grids: Iterable[Grid], *others: str) -> str:
+    """What the marks in the cells mean, a line each, and other notes that are not empty."""
+    cells = [cell for grid in grids for row in grid.rows for cell in row]
+    return "\n".join(
+        [*(note for mark, note in NOTES.items() if any(mark in cell for cell in cells)), *filter(None, others)]
+    )
 
 
 def digits(value: float, form: str) -> str:

@@ -131,7 +131,8 @@ FORMATS = (
     Precision("longdouble", np.finfo(np.longdouble).nmant + 1, np.longdouble, 1),
     Precision("float128", 113, getattr(hy, "real128", hy.real), 1),  # MPFR's where the compiler has no binary128
 )
-MIN_BITS, MAX_BITS = 24, 4096
+MIN_BITS, MAX_BITS = 64, 4096
+"""Of MPFR; fewer would not hold the integers that NumPy mixes with them."""
 
 
 def _long(whole: int) -> Any:

@@ -22,8 +22,8 @@ __all__ = [
     "Trace",
 ]
 
-FLOOR_FACTOR = 10
-"""A number within this factor of what rounding may have made of it is rounding."""
+FLOOR_FACTOR = 2
+"""A number within this factor of the bound on what rounding made of it is rounding, which is mostly an eighth of it."""
 
 
 @dataclass(frozen=True)
@@ -41,7 +41,7 @@ class Cell(OfCase):
         max_error: largest error of the place over the samples.
         end_error: its error at the last sample.
         local_order: log2-slope of max_error from the previous N of the same method and case, or None.
-        floor: True where the cell is rounding, not order: within ten times the rounding floor.
+        floor: True where the cell is rounding, not order: which may have made half of the error or more.
         evaluations: evaluations of the right-hand side (or force) over the march.
         rms_error: root mean square over the samples of the error of the place.
         max_velocity_error: largest error of the velocity over the samples.

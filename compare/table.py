@@ -12,7 +12,18 @@ from typing import TYPE_CHECKING
 
 from compare import grid, machine, rendering, table_extras
 from compare.grid import Column, Grid, Section
-from compare.layout import DOUBT, by_steps, decided, digits, of_steps, scientific, starred
+from compare.layout import (
+    DOUBT,
+    ROUNDING,
+    by_steps,
+    decided,
+    digits,
+    is_rounding,
+    legend,
+    of_steps,
+    scientific,
+    starred,
+)
 from compare.rendering import FORMATS, Tables
 
 if TYPE_CHECKING:
@@ -22,9 +33,8 @@ if TYPE_CHECKING:
 
 __all__ = ["FORMATS", "TABLES", "files", "render", "sections"]
 
-_NAN_NOTE = "nan means overflow, or an implicit method whose stages do not converge at this h"
-_DOUBT_NOTE = f"{DOUBT} means that rounding may change the last digit; digits that it may change else are not printed"
-_FLOOR_NOTE = "* means rounding, not order: within ten times the rounding floor of the engine"
+_NAN_NOTE = "nan means overflow, stages that do not converge, or no Taylor series at a cusp"
+_FAR_NOTE = "! means further from the declared order than the slopes are from each other"
 
 
 def render(study: Study, form: str = "text", width: int = 100) -> str:
@@ -70,26 +80,18 @@ def _drift(study: Study, case: Case, declared: dict[str, int], width: int) -> It
 def _error_section(cells: Sequence[Cell], declared: dict[str, int], width: int) -> Section:
     case = cells[0].case
     what = f"largest {case.error} over the sample {case.samples}{f', in {case.unit},' if case.unit else ''}"
-    labels = Column("error"), Column("order", left=True)
+    grids = by_steps(cells, declared, width, _error_cell, (Column("error"), Column("order", left=True)))
     return Section(
         name=f"error-vs-n-{grid.slug(case.label)}",
         title=f"Error against N, {case.label}: {what} and local order",
-        grids=by_steps(cells, declared, width, _error_cell, labels),
-        note="\n".join(
-            note
-            for note, applies in (
-                (_FLOOR_NOTE, any(cell.floor for cell in cells)),
-                (_DOUBT_NOTE, any(DOUBT in text for cell in cells for text in _error_cell(cell))),
-                (_NAN_NOTE, any(math.isnan(cell.max_error) for cell in cells)),
-            )
-            if applies
-        ),
+        grids=grids,
+        note=legend(grids, _NAN_NOTE if any(math.isnan(cell.max_error) for cell in cells) else ""),
     )
 
 
 def _error_cell(cell: Cell) -> tuple[str, str]:
     if cell.floor:
-        return digits(cell.max_error, ".0e"), "*"
+        return digits(cell.max_error, ".0e"), ROUNDING
     return scientific(cell.max_error, cell.rounding), _local_order(cell)
 
 
@@ -112,13 +114,15 @@ def _order_section(fits: Sequence[FittedOrder]) -> Section:
         )
         for fit in sorted(fits, key=lambda fit: fit.declared_order)
     )
+    grids = (Grid(columns, rows),)
+    missing = (
+        "- means fewer than three cells in the asymptotic range" if any(f.fitted_order is None for f in fits) else ""
+    )
     return Section(
         name=f"order-{grid.slug(at)}",
         title=f"Order, {at}: slope of log(error) against log(h) over the asymptotic range, ± spread of local slopes",
-        grids=(Grid(columns, rows),),
-        note="- means fewer than three cells in the asymptotic range"
-        if any(f.fitted_order is None for f in fits)
-        else "",
+        grids=grids,
+        note=legend(grids, _FAR_NOTE if any(map(_is_far, fits)) else "", missing),
     )
 
 
@@ -138,15 +142,18 @@ def _slope_section(drifts: Sequence[Drift], declared: dict[str, int], width: int
 
     def cells(drift: Drift) -> tuple[str, ...]:
         slope = starred(drift.slope_per_period, drift.slope_rounding)
-        trend = f"{slope} ± {digits(drift.slope_interval, '.0e')}"
+        told = math.isfinite(drift.slope_interval) and not is_rounding(drift.slope_per_period, drift.slope_rounding)
+        trend = f"{slope} ± {digits(drift.slope_interval, '.0e')}" if told else slope.replace("nan", "-")
         scale = drift.max_drift_relative / (drift.max_drift_above_rest or math.inf)
         return (starred(drift.max_drift_relative, scale * drift.rounding), trend) if case.energy else (trend,)
 
     labels = [*(["relative"] if case.energy else []), f"slope per {case.cycle}"]
+    grids = (of_steps(drifts, declared, width, labels, cells),)
     return Section(
         name=f"energy-slope-{grid.slug(case.label)}",
         title=f"{name} trend, {case.label}: {'max |E - E0|/|E0|, and ' if case.energy else ''}{slope}",
-        grids=(of_steps(drifts, declared, width, labels, cells),),
+        grids=grids,
+        note=legend(grids),
     )
 
 
@@ -159,14 +166,23 @@ def _local_order(cell: Cell) -> str:
 
 
 def _fitted(fit: FittedOrder) -> str:
-    """The order and the spread, each to as many decimals as rounding leaves; of a tiny spread its power of ten."""
+    """The order, to as many decimals as rounding leaves, and the spread of the slopes, or its most with rounding."""
     if fit.fitted_order is None:
         return "-"
-    fitted = decided(fit.fitted_order, fit.rounding, _DECIMALS)
+    fitted = decided(fit.fitted_order, fit.rounding, (*_DECIMALS, ".1f")) + "!" * _is_far(fit)
     if fit.spread is None:
         return fitted
-    forms = _DECIMALS if fit.spread >= 5e-5 else (".0e",)
-    return f"{fitted} ± {decided(fit.spread, fit.spread_rounding, forms)}"
+    spread = decided(fit.spread, fit.spread_rounding, _DECIMALS if fit.spread >= 5e-5 else (".0e",))
+    if DOUBT in spread:
+        spread = f"{max(math.ceil(100 * (fit.spread + fit.spread_rounding)), 1) / 100:.2f}"
+    return f"{fitted} ± {spread}"
+
+
+def _is_far(fit: FittedOrder) -> bool:
+    """Whether a fitted order is further from the declared one than its slopes from each other, and by a twentieth."""
+    if fit.fitted_order is None or fit.spread is None:
+        return False
+    return abs(fit.fitted_order - fit.declared_order) > max(fit.spread + fit.spread_rounding, 0.05)
 
 
 _DECIMALS = (".4f", ".3f", ".2f")

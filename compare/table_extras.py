@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from compare import grid
 from compare.grid import Section
-from compare.layout import ROUNDING_NOTE, by_steps, decided, is_rounding, of_steps, starred
+from compare.layout import by_steps, decided, legend, of_steps, starred
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
@@ -40,6 +40,7 @@ def _norms(study: Study, case: Case, declared: dict[str, int], width: int) -> It
         name=f"norms-{grid.slug(case.label)}",
         title=f"Norms, {case.label}: {case.error}{unit}, its correct digits, and the work{rate}",
         grids=tuple(grids),
+        note=legend(grids),
     )
 
 
@@ -58,18 +59,12 @@ def _phase(study: Study, case: Case, declared: dict[str, int], width: int) -> It
     found = [phase for phase in study.phase or () if phase.case == case]
     if not found:
         return
+    grids = by_steps(found, declared, width, _phase_cell)
     yield Section(
         name=f"phase-{grid.slug(case.label)}",
         title=f"Phase, {case.label}: largest |phase - exact| over the sample times, in rad, 2 pi a period",
-        grids=by_steps(found, declared, width, _phase_cell),
-        note="\n".join(
-            note
-            for note, applies in (
-                (ROUNDING_NOTE, any(is_rounding(phase.max_phase_error, phase.phase_rounding) for phase in found)),
-                (_LOST_NOTE, any(phase.lost for phase in found)),
-            )
-            if applies
-        ),
+        grids=grids,
+        note=legend(grids, _LOST_NOTE if any(phase.lost for phase in found) else ""),
     )
     if not all(math.isnan(phase.max_amplitude_error) for phase in found):
         yield from plain(
@@ -156,8 +151,11 @@ def plain(
     """One number for each method and N, if there are any; ``numbers`` gives it with rounding's part of it."""
     if records:
         grids = by_steps(records, *layout, lambda record: [starred(*numbers(record))])
-        marked = any(is_rounding(*numbers(record)) for record in records)
-        yield Section(f"{name}-{grid.slug(records[0].case.label)}", title, grids, ROUNDING_NOTE if marked else "")
+        missing = _MISSING.get(name, "") if any(math.isnan(numbers(record)[0]) for record in records) else ""
+        yield Section(f"{name}-{grid.slug(records[0].case.label)}", title, grids, legend(grids, missing))
+
+
+_MISSING = {"period": "nan means that two passages were not found within the march"}
 
 
 SECTIONS: dict[str, Callable[[Study, Case, dict[str, int], int], Iterator[Section]]] = {

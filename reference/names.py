@@ -16,8 +16,13 @@ LENGTH = 60
 
 
 def short(text: str) -> str:
-    """The text as a sentence repeats it: whole, or where it is long its beginning and its length."""
-    return text if len(text) <= LENGTH else f"{text[:40]}... ({len(text)} characters)"
+    """The text as a sentence repeats it: whole, or where it is long its beginning and its length.
+
+    What cannot be printed is escaped: it may come from a file, and would command a terminal.
+    """
+    if len(text) > LENGTH:
+        return f"{short(text[:40])}... ({len(text)} characters)"
+    return "".join(letter if letter.isprintable() else ascii(letter)[1:-1] for letter in text)
 
 
 def unknown(kind: str, given: str, names: Iterable[str], aliases: Iterable[str] = ()) -> str:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from compare.errata.listings import LISTINGS
 from compare.errata.report_motion import MOTION
 from compare.errata.report_series import SERIES
 from compare.errata.report_tables import TABLES
@@ -11,5 +12,5 @@ from compare.errata.thesis_field import FIELD
 
 __all__ = ["ENTRIES", "ERRATA"]
 
-ERRATA = (*MOTION, *TABLES, *SERIES, *CURVES, *FIELD)
+ERRATA = (*MOTION, *TABLES, *SERIES, *CURVES, *LISTINGS, *FIELD)
 ENTRIES = (*ERRATA, *SOUND)

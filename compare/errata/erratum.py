@@ -1,4 +1,4 @@
-"""An erratum: what is printed, what is right, and one test that the right form passes and the printed form fails."""
+"""An erratum: what is printed, what is right, and one test that the right form passes and every other form fails."""
 
 from __future__ import annotations
 
@@ -26,7 +26,8 @@ class Erratum:
         how: how it was checked, in a sentence.
         touches: which published numbers it changes, in a sentence.
         forms: the printed form and the right one, as ``holds`` takes them.
-        holds: the test of a form, by a route that uses neither of the two.
+        slips: near misses of the right form, such as one coefficient off by one, which show how much the test can see.
+        holds: the test of a form, by a route that uses none of them.
     """
 
     source: str
@@ -36,9 +37,10 @@ class Erratum:
     how: str
     touches: str
     forms: tuple[Any, Any]
+    slips: tuple[Any, ...]
     holds: Callable[[Any], bool]
 
     def confirmed(self) -> bool:
-        """Whether the right form passes the test and the printed one fails it."""
+        """Whether the right form passes the test, and the printed one and every near miss fail it."""
         printed, right = self.forms
-        return self.holds(right) and not self.holds(printed)
+        return self.holds(right) and not any(map(self.holds, (printed, *self.slips)))

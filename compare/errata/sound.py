@@ -12,8 +12,10 @@ from mpmath import mp
 from compare.errata import report_series as series
 from compare.errata.erratum import REPORT, THESIS
 from compare.errata.evidence import GRAVITY, along, exactly, near, precisely, proven, rates
-from compare.errata.report_motion import is_slowness
-from compare.errata.thesis_curves import are_rates, force
+from compare.errata.report_motion import SUBSTITUTED, is_velocity
+from compare.errata.spelled import spelled
+from compare.errata.thesis_curves import NUMERATOR, are_rates
+from reference.problems.cycloid import Tautochrone
 from reference.problems.descent import Descent
 from reference.problems.pendulum import Pendulum
 from reference.problems.polar import PolarBrachistochrone
@@ -63,15 +65,15 @@ def _is_elliptic(modulus: Callable[[Any], Any]) -> bool:
 
 
 @precisely
-def _expands(form: Callable[[Any, Any], Any]) -> bool:
-    """Whether form(phi0, sin theta) is the integrand of (2.5) to the fifth power of phi0 = 1/1000."""
-    phi0, sine = exactly("1/1000"), mp.sin(1)
-    integrand = 1 / mp.sqrt(1 - (mp.sin(phi0 / 2) * sine) ** 2)
-    return bool(abs(form(phi0, sine) - integrand) < phi0**6)
+def _expands(text: str) -> bool:
+    """Whether it is the integrand of (2.5) to the fifth power of phi0 = 1/1000."""
+    phi0, theta = exactly("1/1000"), mp.mpf(1)
+    integrand = 1 / mp.sqrt(1 - (mp.sin(phi0 / 2) * mp.sin(theta)) ** 2)
+    return bool(abs(spelled(text, "φ0", "θ")(phi0, theta) - integrand) < phi0**6)
 
 
-def _leaves_no_secular_term(alpha: Fraction) -> bool:
-    return series.third_order_vanishes(series.PHI_B, alpha)
+def _leaves_no_secular_term(text: str) -> bool:
+    return series.third_order_vanishes(series.PHI_B, spelled(text, "ω", "φ_init")(Fraction(1), Fraction(1)))
 
 
 @precisely
@@ -115,10 +117,10 @@ def _is_constant_of_140(form: Callable[[Any], Any]) -> bool:
 
 
 @precisely
-def _is_abscissa(form: Callable[[Any], Any]) -> bool:
-    """Whether form(y) is x of the cycloid, y being cos theta - 1 as in the listing."""
+def _is_abscissa(text: str) -> bool:
+    """Whether it is x of the cycloid, y being cos theta - 1 as in the listing."""
     theta = mp.mpf(1)
-    return near(form(mp.cos(theta) - 1), theta - mp.sin(theta))
+    return near(spelled(text, "y")(mp.cos(theta) - 1), theta - mp.sin(theta))
 
 
 @precisely
@@ -128,14 +130,37 @@ def _is_the_ranking(curves: tuple[str, ...]) -> bool:
     return all(first < second for first, second in pairwise(times))
 
 
+@precisely
+def _is_horizontal_speed(text: str) -> bool:
+    """Whether it is |dx/dt| at this height on the cycloid of the race, R = 1 m, by the proven passage of its parts."""
+    race = Descent("cycloid", g=GRAVITY)
+    row = [quantity.name for quantity in race.row("passage").quantities]
+    height, speed = row.index("passage_y"), row.index("passage_velocity_x")
+    passages = [proven(race, "passage", Fraction(part)) for part in ("1/10", "1/2", "9/10")]
+    form = spelled(text, "y", "g", "R")
+    return all(near(form(one[height], exactly(str(GRAVITY)), 1), abs(one[speed])) for one in passages)
+
+
+@precisely
+def _is_the_time_of_every_descent(form: Callable[[Any], Any]) -> bool:
+    """Whether, of the start's angle, it is the proven time to the bottom from each start of figure 13."""
+    starts = ("3.13", "2.5", "2.0", "1.5")
+    times = (proven(Tautochrone(start, radius=1, g=GRAVITY), "descent_time")[0] for start in starts)
+    return all(near(form(exactly(start)), time) for start, time in zip(starts, times, strict=True))
+
+
+def _quarter_period() -> Any:
+    """pi sqrt(R/g)."""
+    return mp.pi / mp.sqrt(exactly(str(GRAVITY)))
+
+
 IN_THE_FIELD = "Held against a proven state of the motion for z0 = 1/4, and differences of proven states."
 
 SOUND = (
     Sound(
-        REPORT, "(2.2), (2.4)", "φ' = √(2g/l) √(cos φ − cos φ0)",
+        REPORT, "(2.2), (2.4)", f"φ' = {SUBSTITUTED}",
         "Held against the proven angular velocity of a pendulum of 2 m.",
-        (lambda drop, factor: 1 / mp.sqrt(factor / 2 * drop), lambda drop, factor: 1 / mp.sqrt(factor * drop)),
-        is_slowness,
+        (SUBSTITUTED.replace("2g", "g"), SUBSTITUTED), is_velocity,
     ),
     Sound(
         REPORT, "(2.5)", "T = 4 √(l/g) ∫ dθ/√(1 − k² sin² θ) from 0 to π/2, k = sin(φ0/2)",
@@ -143,23 +168,27 @@ SOUND = (
         (lambda phi0: phi0 / 2, lambda phi0: mp.sin(phi0 / 2)), _is_elliptic,
     ),
     Sound(
-        REPORT, "(2.6)", "1 + φ0² sin² θ/8 + φ0⁴ (9 sin⁴ θ − 4 sin² θ)/384",
+        REPORT, "(2.6)", (expansion := "1 + φ0² sin² θ/8 + φ0⁴ (9 sin⁴ θ − 4 sin² θ)/384"),
         "Held against the integrand at φ0 = 1/1000, to the fifth power of it.",
-        (lambda a, s: 1 + a**2 * s**2 / 8 + a**4 * 9 * s**4 / 384,
-         lambda a, s: 1 + a**2 * s**2 / 8 + a**4 * (9 * s**4 - 4 * s**2) / 384), _expands,
+        (expansion.replace("− 4", "− 3"), expansion), _expands,
     ),
     Sound(
-        REPORT, "(2.7)", "T = 2π √(l/g) (1 + φ0²/16 + 11 φ0⁴/3072)",
+        REPORT, "(2.7)", f"T = 2π √(l/g) ({(period := series.TO_THE_FOURTH.replace('y0', 'φ0'))})",
         series.PROVEN_PERIOD.replace("Both forms are held", "Held"),
-        (lambda a: 1 + a**2 / 16 + 11 * a**4 / 3071, lambda a: 1 + a**2 / 16 + 11 * a**4 / 3072), series.is_period,
+        (period.replace("3072", "3071"), period), series.is_period,
     ),
     Sound(
-        REPORT, "α, before (4.12)", "α = −ω² φ_init²/8", series.EXACT_SERIES,
-        (Fraction(1, 8), Fraction(-1, 8)), _leaves_no_secular_term,
+        REPORT, "(4.11), right side", series.RIGHT_SIDE,
+        "Held against φ_C'' + ω² φ_C of the right φ_C, differentiated with 50 digits.",
+        (series.RIGHT_SIDE.replace("½", ""), series.RIGHT_SIDE), series.is_right_side,
     ),
     Sound(
-        REPORT, "(4.12), cos 3ωt", "ω² φ_init⁵/384", series.EXACT_SERIES,
-        ({3: Fraction(1, 192)}, {3: Fraction(1, 384)}), series.is_forcing,
+        REPORT, "α, before (4.12)", f"α = {(alpha := '−ω² φ_init²/8')}", series.EXACT_SERIES,
+        (alpha.replace("−", ""), alpha), _leaves_no_secular_term,
+    ),
+    Sound(
+        REPORT, "(4.12), cos 3ωt", (third := "ω² φ_init⁵/384"), series.EXACT_SERIES,
+        ((3, third.replace("384", "192")), (3, third)), series.is_forcing,
     ),
     Sound(
         THESIS, "(1.24)", "y (1 + y'²) = 1/(2 g C²) = 2 R",
@@ -181,21 +210,32 @@ SOUND = (
         IN_THE_FIELD, (lambda z0: z0**-3 + z0**-2, lambda z0: z0**-3 - z0**-2), _is_constant_of_140,
     ),
     Sound(
-        THESIS, "(1.48), (1.49)", "ω' = (½ sin θ ω² − (g/2a) sin θ)/(1 + cos θ), θ' = ω, where a is R",
+        THESIS, "(1.48), (1.49)", f"ω' = {(rate := f'({NUMERATOR})/(1 + cos θ)')}, θ' = ω, where a is R",
         "Held against a proven state of the bead on a cycloid with R = 2 m, and its derivative.",
-        (lambda theta, omega, pull: (-force(theta, omega, pull) / (1 + mp.cos(theta)), omega),
-         lambda theta, omega, pull: (force(theta, omega, pull) / (1 + mp.cos(theta)), omega)), are_rates,
+        ((rate.replace("½", "−½"), "ω"), (rate, "ω")), are_rates,
     ),
     Sound(
-        THESIS, "section 3.1, listing", "x = acos(1 + y) − √(y (−2 − y))",
+        THESIS, "section 3.1, listing", f"x = {(abscissa := 'acos(1 + y) − √(y (−2 − y))')}",
         "Held against x and y of the cycloid by its angle.",
-        (lambda y: mp.acos(1 + y) + mp.sqrt(y * (-2 - y)), lambda y: mp.acos(1 + y) - mp.sqrt(y * (-2 - y))),
-        _is_abscissa,
+        (abscissa.replace(") −", ") +"), abscissa), _is_abscissa,
     ),
     Sound(
         THESIS, "section 4.1, on figure 8", "the cycloid is first, the polynomial of degree 4 second, the line last",
         "The proven times are 1.0030 s, 1.0156 s and 1.1890 s with y = 2 (x/π)⁴, as the thesis gives no coefficients; "
         "a quarter of an ellipse, in 1.0068 s, and a circular arc, in 1.0149 s, would be faster than that polynomial.",
         (("cycloid", "quartic", "quarter_ellipse"), ("cycloid", "quartic", "line")), _is_the_ranking,
+    ),
+    Sound(
+        THESIS, "section 4.1, on figure 10",
+        f"on the cycloid v_x depends linearly on the height y: {(linear := '√(g/R) (2R − y)')}",
+        "The proven horizontal speed at three points of the way from (π, 2) m; the formula is ours.",
+        (linear.replace("(2R − y)", "√(y (2R − y))"), linear), _is_horizontal_speed,
+    ),
+    Sound(
+        THESIS, "section 4.3, on figures 11 to 13",
+        "bodies from all starts are at the bottom at the same time, π √(R/g)",
+        "The proven times from θ0 = 3.13, 2.5, 2.0 and 1.5 rad; those of a circular pendulum would grow with θ0.",
+        (lambda theta0: _quarter_period() * (1 + theta0**2 / 16), lambda _: _quarter_period()),
+        _is_the_time_of_every_descent,
     ),
 )  # fmt: skip

@@ -15,10 +15,13 @@ __all__ = ["figure9", "figure10", "figure11", "figure12"]
 
 GRAVITY = "9.81"
 FIELD = f"g = {GRAVITY} m/s²."
+RELEASED = f"Released at (π, 2) m, down to (0, 0); {FIELD}"
 RACE = ("line", "quartic", "cycloid")
 """The curves that the thesis names."""
+QUARTIC = "The quartic is y = 2 (x/π)⁴ m, our choice: the thesis gives no coefficients."
 STARTS = ("3.13", "2.0", "1.5")
 """Angles of the three starts in rad, from the bottom; the first is that of the thesis' listing."""
+STARTS_NOTE = "The start 3.13 rad is the listing's, the others are our choice."
 LAST_TIME = 2.1
 """The listing's march ends so many seconds after the release."""
 FRACTIONS = (np.arange(129) / 128) ** 2
@@ -45,7 +48,7 @@ def _race(item: str, title: str, x_label: str, y_label: str, across: str, upward
         columns = [quantity.name for quantity in problem.row("passage").quantities]
         found = dict(zip(columns, problem.along("passage", FRACTIONS).T, strict=True))
         curves.append(curve(name, found[f"passage_{across}"], np.abs(found[f"passage_{upward}"])))
-    return Drawing(item, title, x_label, y_label, tuple(curves), note=f"Released at (π, 2) m, down to (0, 0); {FIELD}")
+    return Drawing(item, title, x_label, y_label, tuple(curves), note=f"{RELEASED}\n{QUARTIC}")
 
 
 def figure11() -> Drawing:
@@ -67,4 +70,4 @@ def _swings(item: str, title: str, label: str, component: int) -> Drawing:
     ]
     arrivals = [float(swing.descent_time()) for swing in swings]
     meeting = curve("at the bottom", arrivals, [0.0] * len(arrivals), points=True)
-    return Drawing(item, title, "time t [s]", label, (*curves, meeting), note=f"R = 1 m, {FIELD}")
+    return Drawing(item, title, "time t [s]", label, (*curves, meeting), note=f"R = 1 m, {FIELD} {STARTS_NOTE}")

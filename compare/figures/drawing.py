@@ -21,6 +21,7 @@ class Curve:
         name: what is written beside it, or "".
         x, y: its points in the units of the axes; angle in rad and radius where the figure is polar.
         points: whether its points are marked and not joined.
+        ring: the size of its open markers in points, where others may lie on them; 0 for full ones.
         behind: whether it is the thick grey curve that the others are to be seen against.
     """
 
@@ -29,6 +30,7 @@ class Curve:
     y: np.ndarray
     points: bool = False
     behind: bool = False
+    ring: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -42,6 +44,7 @@ class Drawing:
         curves: those behind first.
         polar: whether the curves are angle and radius.
         equal: whether a unit is as long on both axes.
+        logarithmic: whether both axes are; the marked points are then the ticks of x.
         note: what is to be said of it, or "".
     """
 
@@ -52,6 +55,7 @@ class Drawing:
     curves: tuple[Curve, ...]
     polar: bool = False
     equal: bool = False
+    logarithmic: bool = False
     note: str = ""
 
     @property
@@ -60,6 +64,6 @@ class Drawing:
         return self.item.replace(" ", "-")
 
 
-def curve(name: str, x: Sequence[Any] | np.ndarray, y: Sequence[Any] | np.ndarray, **options: bool) -> Curve:
+def curve(name: str, x: Sequence[Any] | np.ndarray, y: Sequence[Any] | np.ndarray, **options: Any) -> Curve:
     """A curve of any numbers."""
     return Curve(name, np.asarray(x, dtype=float), np.asarray(y, dtype=float), **options)

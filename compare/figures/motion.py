@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from compare.figures.descents import FIELD, FRACTIONS, GRAVITY, RACE
+from compare.figures.descents import FIELD, FRACTIONS, GRAVITY, QUARTIC, RACE, RELEASED, STARTS_NOTE
 from compare.figures.drawing import Curve, curve
 from reference import Descent, Tautochrone
 
@@ -82,7 +82,7 @@ def figure8() -> Motion:
     return Motion(
         "thesis figure 8",
         "the race of three curves",
-        f"Released at (π, 2) m, down to (0, 0); {FIELD}",
+        f"{RELEASED}\n{QUARTIC}",
         tuple(curve(name, *way.T) for name, way in zip(RACE, ways, strict=True)),
         tuple(_sliding(name, race) for name, race in zip(RACE, races, strict=True)),
         PANELS * float(Descent("cycloid", GRAVITY).descent_time()),
@@ -107,7 +107,7 @@ def figure13() -> Motion:
     return Motion(
         "thesis figure 13",
         "four bodies on the cycloid",
-        f"R = 1 m, {FIELD}",
+        f"R = 1 m, {FIELD} {STARTS_NOTE}",
         (curve("", *way.T, behind=True),),
         tuple(bodies),
         PANELS * arrivals[0],

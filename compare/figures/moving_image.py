@@ -1,4 +1,4 @@
-"""A motion as an animated GIF, in real time.
+"""A motion as an animated GIF, at a quarter of real time: what lasts a second is over before it is seen.
 
 What stands still is drawn once; only bodies, clock and arrivals are drawn anew, over it.
 """
@@ -20,13 +20,17 @@ if TYPE_CHECKING:
 
     from compare.figures.motion import Body, Motion
 
-__all__ = ["FRAMES_PER_SECOND", "gif"]
+__all__ = ["FRAMES_PER_SECOND", "HELD", "PACE", "SLOWER", "gif"]
 
 FRAMES_PER_SECOND = 25
 """The format counts hundredths of a second, and a frame is then four."""
+SLOWER, PACE = 4, "¼ of real time"
+"""A second of the motion lasts so many, as the picture says."""
 HELD = 2000
 """Milliseconds for which the end is shown before the motion begins again."""
 SIZE, DPI = (6.4, 4.4), 110
+PACE_AT = 0.25
+"""Where in the axes the pace begins, beside the clock."""
 CLOCK, FIRST_ROW, ROW = 0.93, 0.83, 0.075
 """Heights in the axes: of the clock, of the first body's line below it, and from one line to the next."""
 ARRIVALS = 0.34
@@ -43,7 +47,7 @@ def _frames(motion: Motion, title: str) -> Iterator[np.ndarray]:
     """The pixels of each frame: [height, width, 3]."""
     canvas, axes = _still(motion, title)
     still = canvas.copy_from_bbox(axes.figure.bbox)
-    times = motion.times(FRAMES_PER_SECOND)
+    times = motion.times(FRAMES_PER_SECOND * SLOWER)
     places = np.stack([body.places(times) for body in motion.bodies], axis=1)
     markers = draw_bodies(axes, motion, places[0])
     style: dict[str, Any] = {"va": "center", "transform": axes.transAxes}
@@ -71,6 +75,7 @@ def _still(motion: Motion, title: str) -> tuple[FigureCanvasAgg, Any]:
         own, height = ink[body.name], FIRST_ROW - row * ROW
         axes.plot([0.03], [height], own.marker, color=own.colour, transform=axes.transAxes)
         axes.text(0.06, height, body.name, va="center", transform=axes.transAxes)
+    axes.text(PACE_AT, CLOCK, PACE, va="center", color=GREY, transform=axes.transAxes)
     figure.suptitle(title, fontsize=12, fontweight="bold", x=0.01, ha="left")
     figure.supxlabel(motion.note, fontsize=8.5, color=GREY, x=0.01, ha="left")
     canvas.draw()

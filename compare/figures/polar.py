@@ -17,6 +17,7 @@ __all__ = ["figure14", "figure15"]
 FAMILY = ("0.1", "0.2", "0.3", "0.4", "0.5", "0.6", "0.7", "0.8", "0.9")
 CONTINUED = ("0.2", "0.4", "0.7", "0.9")
 """Four of them; the thesis names the first and the last."""
+CHOICE = "Z = 0.4 and 0.7 are our choice: of the four the thesis names 0.2 and 0.9."
 POINTS = 193
 NOTE = "Released at r = r₀, φ = 0; Z = r_min/r₀; all mass is taken to be in the centre, r = 0."
 
@@ -31,11 +32,12 @@ def figure15() -> Drawing:
     paths = [_path(z0, 2 * math.pi) for z0 in CONTINUED]
     angles = [float(PolarBrachistochrone(z0).certified("half_angle")) for z0 in CONTINUED]
     lowest = curve("lowest points r_min", angles, [float(z0) for z0 in CONTINUED], points=True)
-    return _drawing("thesis figure 15", "four paths from I through r_min to F", [*paths, lowest])
+    return _drawing("thesis figure 15", "four paths from I through r_min to F", [*paths, lowest], CHOICE)
 
 
-def _drawing(item: str, title: str, curves: list[Curve]) -> Drawing:
-    return Drawing(item, title, "angle φ", "r/r₀", tuple(curves), polar=True, note=NOTE)
+def _drawing(item: str, title: str, curves: list[Curve], choice: str = "") -> Drawing:
+    note = "\n".join(filter(None, (NOTE, choice)))
+    return Drawing(item, title, "angle φ", "r/r₀", tuple(curves), polar=True, note=note)
 
 
 def _path(z0: str, psi_end: float) -> Curve:

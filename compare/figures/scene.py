@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from compare.figures.motion import Motion
     from compare.ink import Ink
 
-__all__ = ["BEHIND", "draw_bodies", "draw_curve", "draw_paths"]
+__all__ = ["BEHIND", "X_LABEL", "Y_LABEL", "draw_bodies", "draw_curve", "draw_paths"]
 
 BEHIND = "#C8C8C8"
 MARKER_SIZE = 8
@@ -27,7 +27,10 @@ def draw_curve(axes: Any, one: Curve, ink: dict[str, Ink]) -> None:
         axes.plot(one.x, one.y, color=BEHIND, linewidth=5, solid_capstyle="round", label=label)
     elif one.points:
         own = ink[one.name]
-        axes.plot(one.x, one.y, own.marker, linestyle="", color=own.colour, label=label, zorder=4)
+        style: dict[str, Any] = {"linestyle": "", "color": own.colour, "label": label, "zorder": 4}
+        if one.ring:
+            style |= {"markersize": one.ring, "markerfacecolor": "none", "markeredgewidth": 1.6}
+        axes.plot(one.x, one.y, own.marker, **style)
     else:
         axes.plot(one.x, one.y, color=ink[one.name].colour, linestyle=ink[one.name].dashes, label=label)
 

@@ -6,6 +6,7 @@ import math
 from typing import TYPE_CHECKING, Any
 
 from matplotlib.figure import Figure
+from matplotlib.ticker import FixedLocator, LogLocator, NullLocator
 
 from compare.figures import moving_image, page, panels
 from compare.figures.catalogue import FIGURES
@@ -63,7 +64,7 @@ def _draw_axes(drawing: Drawing) -> Figure:
     if drawing.note:
         drawn.supxlabel(drawing.note, fontsize=9, color=GREY, x=0.01, ha="left")
     if any(one.name for one in drawing.curves):
-        axes.legend(**BESIDE)
+        axes.legend(**BESIDE, labelspacing=1.1 if any(one.ring for one in drawing.curves) else None)
     return drawn
 
 
@@ -72,6 +73,15 @@ def _finish_plane(axes: Any, drawing: Drawing) -> None:
     axes.set_ylabel(drawing.y_label)
     if drawing.equal:
         axes.set_aspect("equal")
+    if drawing.logarithmic:
+        axes.set_xscale("log")
+        axes.set_yscale("log")
+        marked = sorted({float(x) for one in drawing.curves if one.points for x in one.x})
+        axes.xaxis.set_major_locator(FixedLocator(marked))
+        axes.yaxis.set_major_locator(LogLocator(subs=(1, 2, 3, 5)))
+        for axis in (axes.xaxis, axes.yaxis):
+            axis.set_minor_locator(NullLocator())
+            axis.set_major_formatter("{x:g}")
 
 
 def _finish_polar(axes: Any, drawing: Drawing) -> None:

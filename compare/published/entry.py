@@ -7,6 +7,7 @@ from decimal import Decimal
 from typing import TYPE_CHECKING
 
 from compare.published import curve, forms, pendulum
+from compare.published.number import Rounded
 from compare.published.source import figures, tables
 from reference.names import unknown
 
@@ -34,6 +35,7 @@ class Entry:
         exact: what is true, to as many places.
         off_by: reproduced less published, in units of the last printed digit; None where nothing is printed.
         wrong: whether it claims to be exact and is not, to the last digit.
+        shown: reproduced for readers, without digits that rounding may have made.
         note: what is to be said of it, or "".
     """
 
@@ -46,6 +48,7 @@ class Entry:
     off_by: int | None
     wrong: bool
     note: str
+    shown: str
 
 
 @dataclass(frozen=True)
@@ -90,7 +93,8 @@ def _entries(table: Table) -> Iterator[Entry]:
 
 def _entry(table: Table, column: Column, row: str, published: str | None) -> Entry:
     places = column.places if published is None else _places(published)
-    reproduced = REPRODUCED[table.name][column.by](table, column, row).fixed(places)
+    number = REPRODUCED[table.name][column.by](table, column, row)
+    reproduced = number.fixed(places)
     exact = EXACT[table.name](table, column, row).fixed(places)
     off_by = None if published is None else int((Decimal(reproduced) - Decimal(published)).scaleb(places))
     return Entry(
@@ -103,6 +107,7 @@ def _entry(table: Table, column: Column, row: str, published: str | None) -> Ent
         off_by=off_by,
         wrong=column.claims_exact and published != exact,
         note="; ".join(filter(None, (column.note, column.notes.get(row)))),
+        shown=number.shown if isinstance(number, Rounded) else reproduced,
     )
 
 

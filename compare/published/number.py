@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import TYPE_CHECKING, Protocol
 
+from compare.layout import decided, is_rounding, starred
 from reference.limbs import fixed, to_fixed, ziv
 
 if TYPE_CHECKING:
@@ -14,7 +15,7 @@ if TYPE_CHECKING:
 
     from flint import arb
 
-__all__ = ["Enclosed", "Exact", "Number", "Scientific", "double"]
+__all__ = ["Enclosed", "Exact", "Number", "Rounded", "Scientific", "double"]
 
 SPARE_BITS = 64
 
@@ -51,6 +52,34 @@ class Scientific:
     def fixed(self, places: int) -> str:
         """A digit, so many places, and a power of ten."""
         return f"{self.value:.{places}e}"
+
+
+@dataclass(frozen=True)
+class Rounded:
+    """A number that a march in a format gave, with a bound on what rounding made of it.
+
+    Attributes:
+        value: the number.
+        rounding: the bound; infinite where nothing of the number is decided.
+        scientific: whether it may be far below 1, such as an error; if not, such as an order, it has decimal places.
+    """
+
+    value: float
+    rounding: float
+    scientific: bool = False
+
+    def fixed(self, places: int) -> str:
+        """All its digits, whether decided or not: for programs."""
+        return (Scientific(self.value) if self.scientific else double(self.value)).fixed(places)
+
+    @property
+    def shown(self) -> str:
+        """For readers: no digit that rounding may have made, and * where it may have made half of the number."""
+        if self.scientific:
+            return starred(self.value, self.rounding)
+        if is_rounding(self.value, self.rounding):
+            return "*"
+        return decided(self.value, self.rounding, (".2f", ".1f", ".0f"))
 
 
 @dataclass(frozen=True)

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 from compare import grid
 from compare.grid import Column, Grid, Section
+from compare.layout import NOTES, ROUNDING
 from compare.published.source import sources
 from compare.rendering import FORMATS
 
@@ -21,7 +22,7 @@ if TYPE_CHECKING:
 
 __all__ = ["FIELDS", "render"]
 
-FIELDS = ("item", "row", "column", "published", "reproduced", "exact", "off_by", "note")
+FIELDS = ("item", "row", "column", "published", "reproduced", "shown", "exact", "off_by", "note")
 LABELS = ("published", "reproduced", "exact", "off by")
 NOT_PRINTED = ("reproduced", "exact")
 """What is shown of a column that the source does not print."""
@@ -71,7 +72,8 @@ def _heading(found: Sequence[Reproduction], form: str, width: int) -> str:
 def _section(one: Reproduction, form: str, width: int) -> Section:
     table = one.table
     page = [f"The page is inferred: {table.inferred}."] if table.inferred else []
-    notes = [f"{one.summary}.", *([f"{table.note}."] if table.note else []), *_notes(one), *page]
+    rounding = [f"{NOTES[ROUNDING]}."] if any(entry.shown != entry.reproduced for entry in one.entries) else []
+    notes = [f"{one.summary}.", *([f"{table.note}."] if table.note else []), *_notes(one), *rounding, *page]
     return Section(
         name=f"published-{table.name}",
         title=f"{table.cited}: {table.title}",
@@ -128,7 +130,9 @@ def _cells(entry: Entry | None, count: int) -> tuple[str, ...]:
     if entry is None:
         return ("",) * count
     if entry.published is None:
-        return entry.reproduced, _marked(entry.exact, entry.reproduced)
+        # beside a number that tells itself which of its digits are rounding the exact one needs no mark
+        decided = entry.shown == entry.reproduced
+        return entry.shown, _marked(entry.exact, entry.reproduced) if decided else entry.exact
     return (
         entry.published + ("!" if entry.wrong else ""),
         _marked(entry.reproduced, entry.published),

@@ -115,7 +115,10 @@ def npy_columns(path: Path, columns: Columns) -> Iterator[list[Column]]:
     elif array.ndim != 2:
         raise ValueError(f"the array has the shape {array.shape}; [rows, columns] is accepted.")
     else:
-        yield [_of_table(array, place) for place in columns.without_header(array.shape[1])]
+        count = len(columns.wanted)
+        hint = f"; the array has the shape {array.shape}, so that its transpose may be meant"
+        places = columns.without_header(array.shape[1], hint if array.shape[0] == count else "")
+        yield [_of_table(array, place) for place in places]
 
 
 def _field(array: Any, name: str) -> Column:

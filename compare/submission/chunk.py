@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -53,7 +54,9 @@ class Chunk:
         if self.doubles is None:
             return False
         times = self.doubles.numbers[:, 0]
-        return bool((last is None or times[0] > float(last.value)) and (np.diff(times) > 0).all())
+        if last is not None and (abs(last.value) > sys.float_info.max or times[0] <= float(last.value)):
+            return False
+        return bool((np.diff(times) > 0).all())
 
     def rows(self, places: Iterable[int] | None = None) -> list[Row]:
         """The exact rows at some places, counted from 0, or all.

@@ -30,9 +30,19 @@ class Dialect:
         self._first = ""
 
     def split(self, line: str) -> list[str]:
-        """The words of a line, without their quotes."""
+        """The words of a line, without their quotes.
+
+        Raises:
+            ValueError: one is longer than any number.
+        """
         if '"' in line and self.separator is not None:
-            return [word.strip() for word in next(csv.reader([line], delimiter=self.separator, skipinitialspace=True))]
+            try:
+                words = next(csv.reader([line], delimiter=self.separator, skipinitialspace=True))
+            except csv.Error:  # nothing else can be wrong with a single line
+                raise ValueError(
+                    f"a field in quotes is longer than {csv.field_size_limit()} characters; numbers are accepted."
+                ) from None
+            return [word.strip() for word in words]
         return [word.strip().strip("\"'") for word in line.split(self.separator)]
 
     def number(self, word: str, name: str, at: str) -> Written:

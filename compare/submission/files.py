@@ -2,24 +2,19 @@
 
 from __future__ import annotations
 
-from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
-import numpy as np
-
-from compare.submission.arrays import Sliced, chunks, npy_columns
+from compare.submission.arrays import chunks, npy_columns
+from compare.submission.hdf5 import hdf5_columns
 from compare.submission.npz import npz_columns
-from compare.submission.packed import packed, rows_first
 from compare.submission.text import STANDARD_INPUT, TextRows
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from compare.submission.arrays import Column
     from compare.submission.chunk import Chunk
     from compare.submission.columns import Columns
-    from reference.store.columns import ForeignColumn
 
 __all__ = ["SUFFIXES", "Rows"]
 
@@ -38,12 +33,14 @@ class Rows:
     Raises:
         FileNotFoundError: there is no such file.
         IsADirectoryError: it is a folder.
-        ValueError: its suffix is of no format that is read here.
+        ValueError: its suffix is of no format that is read here, or has no array of all states, which was asked for.
     """
 
     def __init__(self, name: str, columns: Columns, *, as_written: bool) -> None:
         self._path, self._columns = Path(name), columns
         self._suffix = TEXT[0] if name == STANDARD_INPUT else self._path.suffix.lower()
+        if self._suffix not in (".npz", *HDF5):
+            columns.refuse_packed()
         self._text = TextRows(columns, as_written=as_written)
         if name == STANDARD_INPUT:
             return
@@ -67,46 +64,6 @@ class Rows:
         if self._suffix in TEXT:
             yield from self._text.chunks(self._path, size)
             return
-        opened = {".npy": npy_columns, ".npz": npz_columns}.get(self._suffix, _hdf5_columns)
+        opened = {".npy": npy_columns, ".npz": npz_columns}.get(self._suffix, hdf5_columns)
         with opened(self._path, self._columns) as found:
             yield from chunks(self._columns, found, size)
-
-
-@contextmanager
-def _hdf5_columns(path: Path, columns: Columns) -> Iterator[list[Column]]:
-    """The columns of an HDF5 file: one dataset each, by its path or by the last part of it; or one of times and
-    one of states, where no two are called alike.
-    """
-    from reference.store.columns import foreign_columns
-
-    with foreign_columns(path) as found:
-        paths = list(found)
-        last = [path.rpartition("/")[2] for path in paths]
-        in_two = None
-        if len(set(last)) == len(last):
-            in_two = packed(columns, dict(zip(last, (data.shape for data in found.values()), strict=True)))
-        if in_two is not None:
-            time, table = (found[paths[last.index(name)]] for name in in_two)
-            by_rows = rows_first(columns, in_two[1], table.shape, time.shape)
-            states = [_of_table(table, place, rows_first=by_rows) for place in range(len(columns.wanted) - 1)]
-            yield [_column(time), *states]
-            return
-        names = paths if set(columns.names) <= set(paths) else last
-        places = columns.among(names, "datasets")
-        yield [_column(found[paths[place]]) for place in places]
-
-
-def _column(data: ForeignColumn) -> Column:
-    return Sliced(data.shape, _dtype(data), data.__getitem__)
-
-
-def _of_table(data: ForeignColumn, place: int, *, rows_first: bool) -> Column:
-    """The numbers at ``place`` of every row, of a dataset of shape [rows, state] or else [state, rows]."""
-    pick: Any = data.__getitem__  # h5py takes a slice for each axis
-    if rows_first:
-        return Sliced(data.shape[:1], _dtype(data), lambda rows: pick((rows, place)))
-    return Sliced(data.shape[1:], _dtype(data), lambda rows: pick((place, rows)))
-
-
-def _dtype(data: ForeignColumn) -> Any:
-    return np.dtype(str) if data.is_text else data.dtype

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import math
+import sys
 from fractions import Fraction
-from statistics import median
 from typing import TYPE_CHECKING, Any
 
 from flint import arb, ctx
@@ -12,8 +12,10 @@ from flint import arb, ctx
 from compare.submission.orbit import orbits, remark
 from compare.submission.place import apart
 from compare.submission.record import Point
+from compare.submission.slips import exchanged, refuse_degrees
 from compare.submission.turns import Turns
 from reference.arithmetic import BALL
+from reference.names import short
 from reference.problem import Problem
 from reference.routes import enclosure
 
@@ -25,15 +27,12 @@ if TYPE_CHECKING:
     from compare.submission.record import Running, Score
     from compare.submission.written import Written
 
-__all__ = ["CHUNK", "FIRST_ROWS", "Judge"]
+__all__ = ["CHUNK", "Judge"]
 
 SPARE_BITS = 64
 """Bits of the truth beyond the last that the input can hold, so that its errors are known to a good many digits."""
-DEGREES = 180 / math.pi
 CHUNK = 1024
 """Rows that are judged together: enough to share what they can share, few enough for any memory."""
-FIRST_ROWS = 16
-"""Rows that tell degrees from radians: a poor integrator needs some time to be 57 times wrong."""
 
 
 class Judge:
@@ -61,6 +60,7 @@ class Judge:
         self.turns = Turns(problem.state_names, self._units)
         self.rows = 0
         self.last: Written | None = None
+        self._slip = ""
 
     def expect(self, digits: Iterable[float]) -> None:
         """Learn the digits of numbers to come."""
@@ -70,7 +70,7 @@ class Judge:
         """Judge the next rows; their digits are not yet capped at what the input can hold, nor their turns counted.
 
         Raises:
-            ValueError: the times do not increase, or an angle is in degrees.
+            ValueError: the times do not increase, an angle is in degrees, or an error is beyond the range of doubles.
         """
         self._refuse_disorder(rows)
         self.expect(number.digits for row in rows for number in row.state)
@@ -82,17 +82,18 @@ class Judge:
         """Judge rows at these places, counted from 0, among those that come next, in which none is passed yet.
 
         Raises:
-            ValueError: an angle is in degrees.
+            ValueError: an angle is in degrees, or an error is beyond the range of doubles.
         """
         bits = math.ceil(self.held * math.log2(10)) + SPARE_BITS
         instants = [row.t.value for row in rows]
         truths = enclosure.balls(self.problem, "state", instants, bits)
         if not self.rows and not places[0]:
-            self._refuse_degrees([row.state for row in rows], truths)
-        with ctx.workprec(bits + SPARE_BITS + self.problem.working_bits(instants)):
+            refuse_degrees(self.problem.state_names, self._units, rows, truths)
+            self._slip = exchanged(self.problem.state_names, rows, truths)
+        with ctx.workprec(bits + SPARE_BITS + self.problem.working_bits(instants) + _whole_bits(rows)):
             bench = _Bench(self.problem, bits)
             return [
-                bench.point(self.rows + place + 1, row.t, row.state, truth)
+                bench.point(self.rows + place + 1, row, truth)
                 for place, row, truth in zip(places, rows, truths, strict=True)
             ]
 
@@ -114,7 +115,7 @@ class Judge:
                 f"Row {lost.number}, {self.time} = {lost.t}, is the first whose state is on no orbit of the exact "
                 "motion's kind: it has no phase."
             )
-        return *notes, *self.turns.notes()
+        return *notes, *self.turns.notes(), *([self._slip] if self._slip else [])
 
     @property
     def _phaseless(self) -> bool:
@@ -130,24 +131,17 @@ class Judge:
                 raise ValueError(f"{self.time} = {t.text} in {place} {fault}; increasing times are accepted.")
             last = t
 
-    def _refuse_degrees(self, states: Sequence[Sequence[Written]], truths: Sequence[Sequence[arb]]) -> None:
-        """Raise where a number in radians is wrong by the factor that degrees would make it wrong by."""
-        for i, (name, units) in enumerate(zip(self.problem.state_names, self._units, strict=True)):
-            first = zip(states[:FIRST_ROWS], truths, strict=False)
-            pairs = [(float(BALL.number(state[i].value)), float(truth[i])) for state, truth in first]
-            size = max(abs(truth) for _, truth in pairs)
-            ratios = [given / truth for given, truth in pairs if abs(truth) > size / 8]
-            if units.startswith("rad") and ratios and abs(median(ratios) / DEGREES - 1) < 0.02:
-                raise ValueError(
-                    f"{name} is {median(ratios):.1f} times the truth, as an angle in degrees would be; {units} is "
-                    "accepted, so multiply by pi/180."
-                )
-
 
 def _time(problem: Problem) -> str:
     """What the problem's state is a function of; "" where it has no state."""
     over = next((row.over for row in problem.rows if row.name == "state"), "")
     return {"time": "t", "once": "", "index": ""}.get(over, over)
+
+
+def _whole_bits(rows: Sequence[Row]) -> int:
+    """Bits of the largest number of the states before its point: an angle loses them where its turns are taken off."""
+    values = [number.value for row in rows for number in row.state]
+    return max(0, *(value.numerator.bit_length() - value.denominator.bit_length() + 1 for value in values))
 
 
 class _Bench:
@@ -160,13 +154,25 @@ class _Bench:
         self._resolution = arb(2) ** -bits
         self._start: arb | None = self._invariant([BALL.number(value) for value in problem.start])
 
-    def point(self, number: int, t: Written, state: Sequence[Written], truth: Sequence[arb]) -> Point:
-        """Judge one row."""
+    def point(self, number: int, row: Row, truth: Sequence[arb]) -> Point:
+        """Judge one row.
+
+        Raises:
+            ValueError: an error is beyond the range of doubles.
+        """
+        t, state, place = row
         y = [BALL.number(given.value) for given in state]
         errors = [given - true for given, true in zip(y, truth, strict=True)]
         decimals = [self._digits(*pair) for pair in zip(errors, truth, strict=True)]
         phase, amplitude = self._orbital(t.value, y)
+        energy = self._energy_error(y)
         floats = tuple(float(error) for error in errors)
+        if any(map(math.isinf, (*floats, amplitude, energy))):
+            shown = ", ".join(short(given.text) for given in state)
+            raise ValueError(
+                f"the state in {place} is {shown}: its error or its energy is beyond {sys.float_info.max:.1e}, the "
+                "range of doubles; smaller numbers are accepted."
+            )
         return Point(
             number=number,
             t=t.text,
@@ -177,7 +183,7 @@ class _Bench:
             first_wrong=tuple(map(_first_wrong, state, decimals, errors)),
             phase_error=phase,
             amplitude_error=amplitude,
-            energy_error=self._energy_error(y),
+            energy_error=energy,
         )
 
     def _digits(self, error: arb, truth: arb) -> float:

@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.lib import format as npy
 
-from compare.submission.packed import packed, rows_first
+from compare.submission.packed import flat, packed, rows_first
+from reference.names import short
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -27,7 +28,7 @@ class Member:
     """An array in the archive as a column, or every ``step``-th of its numbers from the one at ``first`` on.
 
     Attributes:
-        whole: the shape of the array.
+        whole: the shape of the array; ``shape`` is that of the column.
         by_columns: whether the first axis varies fastest in memory (Fortran's order).
     """
 
@@ -36,8 +37,8 @@ class Member:
         header = npy.read_array_header_1_0 if version == (1, 0) else npy.read_array_header_2_0
         self.whole, self.by_columns, self.dtype = header(stream)
         if self.dtype.hasobject:
-            raise ValueError(f"{name} is an array of Python objects; an array of numbers is accepted.")
-        self.shape: tuple[int, ...] = self.whole
+            raise ValueError(f"{short(name)} is an array of Python objects; an array of numbers is accepted.")
+        self.shape: tuple[int, ...] = flat(self.whole)
         self._stream, self._step, self._place = stream, 1, 0
 
     def column(self, place: int, *, rows_first: bool) -> Member:
@@ -74,13 +75,13 @@ def npz_columns(path: Path, columns: Columns) -> Iterator[list[Column]]:
             return Member(files[name], stack.enter_context(archive.open(files[name])))
 
         shapes = {name: _shape(archive, file) for name, file in files.items()}
-        found = packed(columns, shapes)
+        found = packed(columns, shapes, "arrays")
         if found is None:
             names = list(files)
             yield [member(names[place]) for place in columns.among(names, "arrays")]
             return
         time, table = found
-        by_rows = rows_first(columns, table, shapes[table], shapes[time])
+        by_rows = rows_first(columns, table, shapes[table], flat(shapes[time]))
         states = [member(table).column(place, rows_first=by_rows) for place in range(len(columns.wanted) - 1)]
         yield [member(time), *states]
 

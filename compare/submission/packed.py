@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from typing import TYPE_CHECKING
 
+from compare.submission.columns import DATASETS, USUAL
 from reference.names import SHOWN, short
 
 if TYPE_CHECKING:
@@ -11,33 +13,47 @@ if TYPE_CHECKING:
 
     from compare.submission.columns import Columns
 
-__all__ = ["packed", "rows_first"]
-
-USUAL = "y"
-"""What the array of the states is called by those who integrate; one of another name is taken if it is the only one."""
+__all__ = ["flat", "packed", "rows_first"]
 
 
-def packed(columns: Columns, shapes: Mapping[str, tuple[int, ...]]) -> tuple[str, str] | None:
+def packed(columns: Columns, shapes: Mapping[str, tuple[int, ...]], kind: str) -> tuple[str, str] | None:
     """The names of the array of times and of the array of states; None where the columns are arrays of their own.
 
-    ``shapes`` has the shapes of the arrays by their names.
+    ``shapes`` has the shapes of the arrays by their names, which are paths where ``kind`` is "datasets".  The states
+    are those that were asked for, or are called "y", or are the only array of their shape.
 
     Raises:
-        ValueError: there are several arrays that may be the states.
+        ValueError: there are several arrays that may be the states, or those that were asked for are not there.
     """
     time, *state = columns.wanted
-    if columns.asked is not None or time not in shapes or any(name in shapes for name in state):
+    if columns.packed:
+        names = list(shapes)
+        first, second = (names[place] for place in columns.among(names, kind))
+        return first, second
+    last = [name.rpartition("/")[2] for name in shapes] if kind == DATASETS else list(shapes)
+    if columns.asked is not None or set(state) & set(last):
         return None
-    tables = [name for name, shape in shapes.items() if len(shape) == 2 and len(state) in shape]
-    if USUAL in shapes:
+    if {time, USUAL} <= set(shapes):
         return time, USUAL
+    count = Counter(last)
+    known = {part: name for part, name in zip(last, shapes, strict=True) if count[part] == 1}
+    if time not in known:
+        return None
+    if USUAL in known:
+        return known[time], known[USUAL]
+    tables = [name for name, shape in shapes.items() if len(shape) == 2 and len(state) in shape and name != known[time]]
     if len(tables) > 1:
         raise ValueError(
-            f"there are {len(tables)} arrays that may hold {', '.join(state)}: "
+            f"there are {len(tables)} {kind} that may hold {', '.join(state)}: "
             f"{', '.join(map(short, tables[:SHOWN]))}; one called {USUAL} is accepted, or one for each "
-            "of the state's numbers."
+            f"of the state's numbers, or '--columns {short(known[time])},{short(tables[0])}' would say which it is."
         )
-    return (time, tables[0]) if tables else None
+    return (known[time], tables[0]) if tables else None
+
+
+def flat(shape: tuple[int, ...]) -> tuple[int, ...]:
+    """The shape of a column: of a matrix of one row or one column too, as MATLAB has no other."""
+    return (max(shape),) if len(shape) == 2 and 1 in shape else shape
 
 
 def rows_first(columns: Columns, name: str, shape: tuple[int, ...], times: tuple[int, ...]) -> bool:
@@ -53,12 +69,12 @@ def rows_first(columns: Columns, name: str, shape: tuple[int, ...], times: tuple
     rows = times[0]
     if shape not in {(rows, width), (width, rows)}:
         raise ValueError(
-            f"{name} has the shape {shape}; ({rows}, {width}) or ({width}, {rows}) is accepted, with {which} at each "
-            f"of the {rows} times."
+            f"{short(name)} has the shape {shape}; ({rows}, {width}) or ({width}, {rows}) is accepted, with {which} at "
+            f"each of the {rows} times."
         )
     if rows == width:
         raise ValueError(
-            f"{name} has the shape {shape}, and there are {rows} times, so that rows and columns cannot be told apart; "
-            f"an array for each of {which} is accepted."
+            f"{short(name)} has the shape {shape}, and there are {rows} times, so that rows and columns cannot be told "
+            f"apart; an array for each of {which} is accepted."
         )
     return shape == (rows, width)

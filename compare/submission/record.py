@@ -83,12 +83,12 @@ class Bar(NamedTuple):
     Attributes:
         maxima: of the errors of a row, of phase, amplitude and energy, and of each number of the state; a NaN stays.
         worst: the fewest correct digits, and the number of the first row that has so few.
-        lost: whether a row without a phase is known.
+        first_lost: the number of the first known row without a phase; infinite where none is known.
     """
 
     maxima: list[float]
     worst: tuple[float, int]
-    lost: bool
+    first_lost: float
 
 
 class Running:
@@ -102,6 +102,7 @@ class Running:
         self._names, self._keep = names, keep
         self._kept: list[Point] = []
         self._stride = 1
+        self._first: Point | None = None
         self._last: Point | None = None
         self._worst: Point | None = None
         self._lost: Point | None = None
@@ -118,6 +119,7 @@ class Running:
     def add(self, points: Iterable[Point]) -> None:
         """Take in the next rows."""
         for point in points:
+            self._first = self._first or point
             self._maxima = self._raised(self._maxima, point)
             if self._worst is None or point.digits < self._worst.digits:
                 self._worst = point
@@ -141,13 +143,15 @@ class Running:
 
     def bar(self, points: Iterable[Point]) -> Bar:
         """What a row must pass to change the summary, after these rows besides those so far."""
-        maxima, worst, lost = self._maxima, self._worst, self._lost is not None
+        maxima, worst = self._maxima, self._worst
+        first_lost = math.inf if self._lost is None else self._lost.number
         for point in points:
             maxima = self._raised(maxima, point)
-            lost = lost or math.isnan(point.phase_error)
+            if math.isnan(point.phase_error):
+                first_lost = min(first_lost, point.number)
             if worst is None or (point.digits, point.number) < (worst.digits, worst.number):
                 worst = point
-        return Bar(maxima, (math.inf, 0) if worst is None else (worst.digits, worst.number), lost=lost)
+        return Bar(maxima, (math.inf, 0) if worst is None else (worst.digits, worst.number), first_lost)
 
     @property
     def lost(self) -> Point | None:
@@ -160,17 +164,18 @@ class Running:
         Raises:
             ValueError: there were no rows.
         """
-        if self._last is None or self._worst is None:
+        if self._first is None or self._last is None or self._worst is None:
             raise ValueError("there are no rows; at least one is accepted.")
-        kept = {point.number: point for point in (*self._kept, self._worst, self._last)}
+        worst = self._worst if self._worst.digits < held else self._first  # all have what the input can hold
+        kept = {point.number: point for point in (*self._kept, worst, self._last)}
         error, phase, amplitude, energy, *errors = self._maxima
         return Score(
             problem=problem,
             names=self._names,
             units=units,
             rows=self._last.number,
-            worst_digits=min(self._worst.digits, held),
-            worst_row=self._worst.number,
+            worst_digits=min(worst.digits, held),
+            worst_row=worst.number,
             digits_held=held,
             max_error=error,
             max_errors=tuple(errors),

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from compare.submission.judge import FIRST_ROWS
+from compare.submission.slips import FIRST_ROWS
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Mapping
@@ -76,7 +76,10 @@ class Sift:
         return lambda: self._counted(points, bounds)
 
     def _counted(self, points: Mapping[int, Point], bounds: Bounds) -> list[Point]:
-        self._judge.turns.add(bounds.about)
+        errors = bounds.about.copy()
+        for place, point in points.items():
+            errors[place] = point.errors
+        self._judge.turns.add(errors)
         return [points[place] for place in sorted(points)]
 
     def _bounds(self, chunk: Chunk) -> Bounds | None:
@@ -102,11 +105,11 @@ class Sift:
         for measure, most in zip(measures, bar.maxima, strict=True):
             if not math.isnan(most):  # a maximum that is not a number stays
                 may |= ~(measure <= most)
-        if not bar.lost:
-            may |= lost
+        numbers = np.arange(len(chunk)) + self._judge.rows + 1
+        may |= lost & (numbers < bar.first_lost)  # the first of them is named
+        may |= self._judge.turns.unsure(bounds.about, bounds.errors - np.abs(bounds.about))
         fewest, first = bar.worst
         few = bounds.digits.min(axis=1)
-        numbers = np.arange(len(chunk)) + self._judge.rows + 1
         fewer = ~((few > fewest) | ((few == fewest) & (numbers >= first)))
         unsure = [
             place for place in np.flatnonzero(fewer & ~may).tolist() if not self._has(chunk, bounds, place, fewest)

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from compare.submission.block import Blocks
 from compare.submission.chunk import Chunk, Row
 from compare.submission.dialect import Dialect, is_numeric
-from compare.submission.lines import STANDARD_INPUT, Lines, opened
+from compare.submission.lines import STANDARD_INPUT, Lines, opened, refuse_undecodable
 from compare.submission.written import ROUND_TRIP_DIGITS, Written, of_value
 
 if TYPE_CHECKING:
@@ -50,7 +50,7 @@ class TextRows:
         with opened(path) as stream:
             lines = Lines(stream)
             first = next(lines, None)
-            table = None if first is None else Table(self._columns, first[1], lines.comments)
+            table = None if first is None else Table(self._columns, first, lines.comments)
             rest = lines if first is None or (table is not None and table.has_header) else chain([first], lines)
             begun = False
             while table is not None and (batch := list(islice(rest, size))):
@@ -69,20 +69,31 @@ class TextRows:
 
 
 class Table:
-    """A table that begins with ``line``, which may be a header; or else a comment before it may.
+    """A table that begins with the line ``first``, which may be a header; or else a comment before it may.
 
     Raises:
         ValueError: a column is missing, or there are others than are wanted where nothing names them.
     """
 
-    def __init__(self, columns: Columns, line: str, comments: Sequence[str]) -> None:
+    def __init__(self, columns: Columns, first: Line, comments: Sequence[str]) -> None:
         self._columns = columns
+        number, line = first
         self._dialect = Dialect(line)
         words = self._dialect.split(line)
         self._width = len(words)
         self.has_header = not all(map(is_numeric, words))
-        self._places = columns.among(words) if self.has_header else self._unnamed(line, comments)
+        self._places = self._named(words, number) if self.has_header else self._unnamed(line, comments)
         self._blocks: Blocks | None = None
+
+    def _named(self, words: Sequence[str], number: int) -> list[int]:
+        """Where the columns are that a header names; its other names may be of any encoding."""
+        try:
+            places = self._columns.among(words)
+        except ValueError:
+            refuse_undecodable("".join(words), number)
+            raise
+        refuse_undecodable("".join(words[place] for place in places), number)
+        return places
 
     def _unnamed(self, line: str, comments: Sequence[str]) -> list[int]:
         """Where the columns are in a table that begins with numbers: a comment before it may be its header."""
@@ -107,6 +118,7 @@ class Table:
                 f"line {number} has {len(words)} fields; {self._width} are accepted, as in the first line of the table"
                 f"{hint}."
             )
+        refuse_undecodable("".join(words[place] for place in self._places), number)
         at = f"line {number}"
         t, *state = (
             self._dialect.number(words[place], name, at)

@@ -18,6 +18,8 @@ NEAR = 0.5
 MOST = 0.9
 """The least part of the angles wrong by more than half a turn that is wrong by whole ones where angles are wrapped:
 an error that merely grows is as often a half as a whole."""
+FARTHEST = 1e12
+"""rad: larger errors are no turns; doubles, which are then 1e-4 apart and more, soon tell no turn from its parts."""
 
 
 class Turns:
@@ -34,14 +36,23 @@ class Turns:
     def add(self, errors: np.ndarray) -> None:
         """Take in the errors of the next rows, [rows, state]."""
         for i in self._angles:
-            turns = np.rint(errors[:, i] / TURN)
-            astray = np.abs(errors[:, i]) > TURN / 2
-            turned = astray & (np.abs(errors[:, i] - turns * TURN) < NEAR)
+            size = np.abs(errors[:, i])
+            astray = size > TURN / 2
+            turned = astray & (size < FARTHEST) & (_past_turns(size) < NEAR)
             if i not in self._first and turned.any():
                 self._first[i] = self._rows + int(np.argmax(turned)) + 1
             self._turned[i] += int(turned.sum())
             self._astray[i] += int(astray.sum())
         self._rows += len(errors)
+
+    def unsure(self, errors: np.ndarray, within: np.ndarray) -> np.ndarray:
+        """The rows that may count otherwise than with these errors, which are right to ``within``, [rows, state]."""
+        found = np.zeros(len(errors), dtype=bool)
+        for i in self._angles:
+            size, least = np.abs(errors[:, i]), within[:, i]
+            for measure, edge in ((size, TURN / 2), (size, FARTHEST), (_past_turns(size), NEAR)):
+                found |= ~(np.abs(measure - edge) > least)  # what is not a number is unsure
+        return found
 
     def notes(self) -> list[str]:
         """A sentence for each angle that is wrong by whole turns."""
@@ -52,3 +63,10 @@ class Turns:
             for i, name in self._angles.items()
             if self._turned[i] and self._turned[i] >= MOST * self._astray[i]
         ]
+
+
+def _past_turns(size: np.ndarray) -> np.ndarray:
+    """How far each is from the nearest whole turns; what is beyond FARTHEST is taken for that."""
+    within = np.minimum(size, FARTHEST)
+    found: np.ndarray = np.abs(within - np.rint(within / TURN) * TURN)
+    return found

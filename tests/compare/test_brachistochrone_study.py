@@ -42,8 +42,11 @@ def test_rk4_along_a_curve_is_simpsons_rule() -> None:
 
 
 def test_roundings_of_the_coordinate_are_known_for_what_they_are() -> None:
-    found = study(n=[2**k for k in range(15, 19)], methods=("rk4",), form=("curve",))
-    assert [cell.floor for cell in found.error_vs_n] == [False, False, True, True]
+    options = {"n": [2**k for k in range(15, 19)], "methods": ("rk4",), "form": ("curve",)}
+    found, exact = study(**options), study(**options, precision="float128")
+    assert [cell.floor for cell in found.error_vs_n] == [False, False, False, True]
+    for cell, other in zip(found.error_vs_n, exact.error_vs_n, strict=True):
+        assert cell.rounding / 10 < abs(cell.max_error - other.max_error) < cell.rounding
     assert all(math.isnan(cell.max_velocity_error) for cell in found.error_vs_n)
 
 

@@ -60,6 +60,35 @@ def test_a_smooth_form_has_order_4_from_the_first_row_and_reaches_rounding_where
     assert column(entries, f"{SINGULAR[SMOOTH.index(form)]}: error")[1024] > 1e-3
 
 
+@pytest.mark.parametrize("form", [*SINGULAR, *SMOOTH])
+def test_no_order_is_shown_where_the_error_is_rounding(entries, form):
+    errors = {n: entry for (name, n), entry in entries.items() if name == f"{form}: error"}
+    orders = {n: entry.shown for (name, n), entry in entries.items() if name == f"{form}: order"}
+    for n, order in orders.items():
+        starred = errors[n].shown.endswith("*") or errors[n // 2].shown.endswith("*")
+        assert (order == "*") == starred
+        assert starred or 1 < float(order) < 4.1
+    assert orders[256] != "*"
+    assert form in SINGULAR or set(list(orders.values())[2:]) == {"*"}
+
+
+def test_a_digit_that_is_shown_is_one_of_the_march_without_rounding(entries):
+    for entry in entries.values():
+        if not entry.shown.endswith("*") and not entry.shown.startswith("~"):
+            unit = 10.0 ** -len(entry.shown.partition("e")[0].partition(".")[2])
+            scale = 10.0 ** int(entry.shown.partition("e")[2] or 0)
+            assert abs(float(entry.shown) - float(entry.exact)) <= 0.51 * unit * scale + 0.005 * scale
+
+
+def test_the_marks_of_rounding_are_explained(capsys):
+    assert main(["published", "curves"]) == 0
+    out = " ".join(capsys.readouterr().out.split())
+    assert "* means rounding" in out
+    assert "-3.94" not in out
+    assert main(["published", "figure7"]) == 0
+    assert "* means rounding" not in capsys.readouterr().out
+
+
 def test_the_table_goes_on_with_figure_7(entries):
     (figure7,) = reproduce(["figure7"])
     listed = {int(e.row): float(e.reproduced) for e in figure7.entries if e.column == "error"}

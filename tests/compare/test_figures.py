@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 import math
+from itertools import pairwise
 
 import numpy as np
 import pytest
+from matplotlib.backends.backend_agg import FigureCanvasAgg
 
 from compare.__main__ import main
-from compare.figures import curve, descents, pendulum, polar
+from compare.figures import curve, descents, motion, pendulum, polar
 from compare.figures.catalogue import FIGURES
 from compare.figures.drawing import Drawing
 from compare.figures.motion import Motion
-from compare.figures.show import files
+from compare.figures.show import draw, files
 from compare.published.source import figures
 
 SPEED_AT_THE_END = math.sqrt(2 * 9.81 * 2)
@@ -88,17 +90,78 @@ def test_figure_15_sweeps_twice_the_half_angle_and_is_its_own_mirror():
 
 def test_the_points_of_figure_6_lie_on_the_cycloid_until_its_slope_is_infinite():
     exact, points = curve.figure6().curves
-    away = np.abs(np.interp(-points.y, -exact.y, exact.x) - points.x)
+    away = np.abs(np.interp(points.y, exact.y, exact.x) - points.x)
     assert np.max(away[:-1]) < 1e-3
     assert away[-1] > 0.03
-    assert points.y[-1] == pytest.approx(-1.9999, abs=1e-12)
+    assert points.y[-1] == pytest.approx(1.9999, abs=1e-12)
+
+
+def test_the_ordinate_of_figure_6_is_what_the_listing_collects():
+    drawing = curve.figure6()
+    assert drawing.y_label == "−y [m]"
+    for one in drawing.curves:
+        assert np.all(np.diff(one.y) > 0)
+        assert 0 <= one.y[0] < 0.01
+        assert 1.99 < one.y[-1] <= 2
 
 
 def test_the_error_of_figure_7_falls_far_more_slowly_than_of_order_4():
     without_rounding, listed = curve.figure7().curves
     assert list(listed.x) == [100, 200, 300, 400, 500]
-    assert listed.y == pytest.approx(without_rounding.y, rel=1e-9)
+    assert listed.y == pytest.approx(without_rounding.y[np.isin(without_rounding.x, listed.x)], rel=1e-9)
     assert 1.2 < math.log(listed.y[0] / listed.y[-1]) / math.log(5) < 1.4
+
+
+def test_the_curve_of_figure_7_is_computed_and_no_line_between_five_points():
+    drawing = curve.figure7()
+    without_rounding, listed = drawing.curves
+    assert len(without_rounding.x) == 101
+    between = np.interp(without_rounding.x, listed.x, listed.y)
+    assert np.max(between / without_rounding.y) > 1.1
+    slopes = -np.diff(np.log(without_rounding.y)) / np.diff(np.log(without_rounding.x))
+    assert np.all(np.diff(slopes) > 0)
+    assert drawing.logarithmic
+    axes = draw(drawing).axes[0]
+    assert list(axes.get_xticks()) == list(listed.x)
+    assert (axes.get_xscale(), axes.get_yscale()) == ("log", "log")
+
+
+@pytest.mark.parametrize(
+    ("name", "words"),
+    [
+        ("thesis-figure-6", "−y"),
+        ("thesis-figure-7", "our choice"),
+        *((f"thesis-figure-{n}", "The quartic is y = 2 (x/π)⁴ m, our choice") for n in (8, 9, 10)),
+        *((f"thesis-figure-{n}", "3.13 rad is the listing's, the others are our choice") for n in (11, 12, 13)),
+        ("thesis-figure-15", "Z = 0.4 and 0.7 are our choice"),
+    ],
+)
+def test_a_note_says_what_the_source_does_not(name, words):
+    assert words in FIGURES[name]().note
+
+
+def test_the_quartic_of_the_race_is_the_one_that_the_notes_name():
+    (quartic,) = (one for one in motion.figure8().paths if one.name == "quartic")
+    assert quartic.y == pytest.approx(2 * (quartic.x / math.pi) ** 4, abs=1e-15)
+
+
+def test_what_coincides_in_the_report_s_figure_10_is_drawn_as_rings_within_rings():
+    drawn = draw(pendulum.figure10()).axes[0].get_lines()[1:]
+    sizes = [line.get_markersize() for line in drawn]
+    assert all(after < 0.85 * before for before, after in pairwise(sizes))
+    assert {line.get_markerfacecolor() for line in drawn} == {"none"}
+
+
+def test_panels_and_notes_of_motions_do_not_touch():
+    for compute in (motion.figure8, motion.figure13):
+        drawn = draw(compute())
+        FigureCanvasAgg(drawn).draw()
+        below = [axes.xaxis.label.get_window_extent() for axes in drawn.axes[3:]]
+        note = next(text for text in drawn.texts if "9.81" in text.get_text()).get_window_extent()
+        assert all(box.y0 > note.y1 for box in below)
+        upper, lower = (drawn.axes[i].get_window_extent() for i in (0, 3))
+        assert upper.y0 - lower.y1 < 0.45 * upper.height
+        assert note.x1 < drawn.bbox.x1
 
 
 def test_the_report_s_figures_2_to_4_show_a_closed_orbit_that_keeps_its_energy():
@@ -157,7 +220,9 @@ def test_every_figure_is_written_as_png_and_svg_and_those_that_move_as_gif_and_h
 def test_every_axis_has_a_quantity_with_units(drawings):
     for drawing in drawings:
         if isinstance(drawing, Drawing) and not drawing.polar:
-            assert all(label.endswith("]") for label in (drawing.x_label, drawing.y_label)), drawing.item
+            units = [label for label in (drawing.x_label, drawing.y_label) if label != "number of steps N"]
+            assert all(label.endswith("]") for label in units), drawing.item
+            assert not any("[1]" in label for label in units)
 
 
 def test_the_command_line_writes_the_figures_the_same_bytes_every_time(tmp_path, capsys, written):
@@ -180,8 +245,9 @@ def test_one_figure_can_be_drawn_alone_and_beside_a_table(tmp_path, capsys):
 def test_nothing_is_drawn_where_a_name_is_unknown(tmp_path, capsys):
     assert main(["published", "thesis-figure-9", "figure8", "--out", str(tmp_path)]) == 2
     assert capsys.readouterr().err == (
-        "error: table 'figure8' is unknown, perhaps figure7 or thesis-figure-8 or thesis-figure-9; "
-        "accepted are table8, table9, table12, figure7, curves.\n"
+        "error: table or figure 'figure8' is unknown, perhaps figures or figure7 or thesis-figure-8; "
+        "accepted are table8, table9, table12, figure7, curves, all, figures, and the name of one figure: "
+        f"{', '.join(FIGURES)}.\n"
     )
     assert not list(tmp_path.iterdir())
 

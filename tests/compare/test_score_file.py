@@ -211,7 +211,7 @@ MISTAKES = {
     "t,theta,omega\n0,57.29578,0\n0.1,54.94,-46.87\n": "theta is 57.3 times the truth, as an angle in degrees would be",
     "t,theta,omega\n": "has no rows",
     "": "has no rows",
-    "\x00\x01\x02": "there is no column t",
+    "\x00\x01\x02": "line 1 has a NUL character, as no text file has; a table of text in UTF-8 is accepted",
 }  # fmt: skip
 
 

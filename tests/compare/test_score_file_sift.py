@@ -92,6 +92,69 @@ def test_a_state_over_the_top_is_found_among_thousands():
     assert json.loads(text)["max_phase_error"] is None
 
 
+EDGE = 2e-14
+"""What doubles cannot tell from the separatrix."""
+LOST = [
+    ({10: 1 - EDGE, 30: 1.0001, 64: 1.0001}, 31),  # of these places the rows kept have 64 alone
+    ({10: 1 - EDGE, 30: 1 + EDGE, 64: 1.0001}, 31),
+    ({10: 1 + EDGE, 64: 1.0001}, 11),
+    ({10: 1 - EDGE, 64: 1.0001, 70: 1.0001}, 65),
+    ({600: 1 - EDGE, 610: 1 + EDGE, 640: 1.0001}, 611),
+    ({100: 1.0001, 600: 1 + EDGE, 640: 1.0001}, 101),
+    ({600: 1 - EDGE}, None),
+]
+"""The speeds at some places, of those that lead just over the top, and the first row that is on no swing."""
+
+
+@pytest.mark.parametrize(("speeds", "first"), LOST)
+def test_the_first_row_without_a_phase_is_named_though_a_later_one_is_seen_first(speeds, first):
+    """Passages of the bottom; the first and the last row are wrong by more than those that are lost."""
+    problem = Pendulum(3.0)
+    period = float(problem.period())
+    t = period / 4 + np.arange(1024) * period / 2
+    table = np.column_stack([t, problem.state(t)])
+    fastest = 2 * math.sqrt(9.81) * np.copysign(np.cos(table[:, 1] / 2), table[:, 2])
+    table[[0, 500, 1010], 1] += 0.1
+    table[[0, 500, 1010], 2] *= 0.5
+    for place, speed in speeds.items():
+        table[place, 2] = fastest[place] * speed
+    text, count = judged(problem, chunked(table), sifted=True)
+    assert text == judged(problem, chunked(table), sifted=False)[0]
+    notes = [note for note in json.loads(text)["notes"] if "no phase" in note]
+    assert [int(note.split()[1].rstrip(",")) for note in notes] == ([] if first is None else [first])
+    assert count < 64
+
+
+def test_near_the_separatrix_the_first_row_on_no_swing_is_that_of_all_rows():
+    problem = Pendulum(3.1415924826474946)
+    random = np.random.default_rng(6)
+    t = np.cumsum(random.exponential(0.05, 2500))
+    noise = 4e-15 * np.exp(random.normal(0, 3, (2500, 2))) * random.choice([-1, 1], (2500, 2))
+    parts = chunked(np.column_stack([t, problem.state(t) + noise]), 1024)
+    text, count = judged(problem, parts, sifted=True, keep=24)
+    assert text == judged(problem, parts, sifted=False, keep=24)[0]
+    assert "is on no orbit" in text
+    assert count < 2500
+
+
+def test_angles_on_the_edge_between_wrapped_and_wrong_are_counted_as_of_all_rows():
+    """Half a radian beyond a whole turn, as doubles round it, to one side or the other."""
+    table = spoiled(SWING, 1e-6)
+    table[1000:, 1] += 2 * math.pi
+    table[1000::32, 1] = SWING.state(T[1000::32])[:, 0] + 2 * math.pi + (0.5 - 2**-50)
+    table[1001, 1] += 20
+    text, count = judged(SWING, chunked(table), sifted=True)
+    assert text == judged(SWING, chunked(table), sifted=False)[0]
+    assert "theta is wrong by whole turns of 2 pi in" in text
+    assert count < 600
+
+
+def test_rows_with_all_the_digits_of_doubles_are_equally_good_and_the_first_is_named():
+    for sifted in (True, False):
+        found = json.loads(judged(SWING, chunked(spoiled(SWING, 0.0)), sifted=sifted)[0])
+        assert (found["worst_row"], found["worst_digits"]) == (1, found["digits_held"])
+
+
 def test_decimals_of_few_digits_that_are_right_have_all_of_theirs():
     states = SWING.state(T)
     texts = [[f"{t!r}", f"{a:.5e}", f"{b:.5e}"] for t, (a, b) in zip(T.tolist(), states.tolist(), strict=True)]
@@ -103,7 +166,7 @@ def test_decimals_of_few_digits_that_are_right_have_all_of_theirs():
         parts.append(Chunk(len(part), part.__getitem__, Doubles(numbers, 6)))
     text, _ = judged(SWING, parts, sifted=True)
     assert text == judged(SWING, parts, sifted=False)[0]
-    assert json.loads(text)["worst_digits"] == 6
+    assert (json.loads(text)["worst_digits"], json.loads(text)["worst_row"]) == (6, 1)
 
 
 def _written(line: list[str]):
