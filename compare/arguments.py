@@ -48,10 +48,10 @@ _ROOMS: dict[str, Any] = {
 """Commands whose options stand in a room of their own."""
 _SHOWN = tuple(form for form in FORMATS if form != "csv")
 _FORMATS_HELP, _SHOWN_HELP = f"{', '.join(FORMATS)} (default text)", f"{', '.join(_SHOWN)} (default text)"
-_EPILOG = (
-    "A number is read as binary64, as in a program, or with --exact as written.  "
-    "A mistake is one sentence on stderr and exit code 2."
-)
+_MISTAKE = "A mistake is one sentence on stderr and exit code 2."
+_EPILOG = f"A number is read as binary64, as in a program, or with --exact as written.  {_MISTAKE}"
+_NUMBERS = frozenset({*studies.ROOMS, "solvers", "score"})
+"""Commands that take exact numbers."""
 
 
 @dataclass(frozen=True)
@@ -103,7 +103,8 @@ def _parser(words: Sequence[str] = ("score",)) -> Parser:
     parser = Parser(prog="python -m compare", description="Score integrators.", epilog=_EPILOG)
     commands = parser.add_subparsers(dest="command", metavar="COMMAND")
     for command, text in COMMANDS.items():
-        one = commands.add_parser(command, help=text, description=text, epilog=_EPILOG)
+        epilog = _EPILOG if command in _NUMBERS else _MISTAKE
+        one = commands.add_parser(command, help=text, description=text, epilog=epilog)
         if command == "score":
             submission.add_options(one, with_families=words[0] == command)
         if command in _ROOMS:

@@ -106,5 +106,5 @@ def _value(value: object) -> str:
     if isinstance(value, (list, tuple)):
         return ", ".join(f"({_value(item)})" if isinstance(item, (list, tuple)) else _value(item) for item in value)
     if isinstance(value, dict):
-        return ", ".join(f"{key} {_value(item)}" for key, item in value.items())
+        return "; ".join(f"{key}: {_value(item)}" for key, item in value.items())
     return value if isinstance(value, str) else repr(value)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from numbers import Real
 from typing import TYPE_CHECKING, Any
 
@@ -44,6 +45,7 @@ LEAST_STEPS = 48
 LANES_OF_A_LADDER = 7
 """Steps of all marches of a ladder, from two starts, over those of its longest."""
 TRIAL_TIMES = 9
+MOST_ORDER = 100
 
 
 def check(
@@ -79,7 +81,7 @@ def check(
             f"problem is {tried!r}; a problem with positions and momenta, such as Pendulum(1.0), is accepted."
         )
     if order is not None and not _is_order(order):
-        raise ValueError(f"order is {order!r}; a positive number is accepted.")
+        raise ValueError(f"order is {order!r}; a positive number below {MOST_ORDER} is accepted.")
     candidate = Candidate(step, form_of(step, form), _name(step))
     try:
         with deadline(seconds):
@@ -95,7 +97,7 @@ def check(
 
 
 def _is_order(order: Any) -> bool:
-    return type(order) is not bool and isinstance(order, Real) and 0 < float(order) < 100
+    return type(order) is not bool and isinstance(order, Real) and 0 < float(order) < MOST_ORDER
 
 
 def _name(step: Callable[..., Any]) -> str:
@@ -107,6 +109,10 @@ def _checked(candidate: Candidate, claims: Claims, scene: Scene) -> Check:
     marcher, calls, timed, name = _marcher(candidate, scene, h)
     counts = ladder(_most_steps(marcher, calls))
     still = measured(marcher, SPAN * h, counts)
+    if not any(math.isfinite(cell.error) for cell in still.cells):
+        raise MisuseError(
+            f"{candidate.name} gives no finite states however short its steps are; finite ones are accepted."
+        )
     if still.kind == "own steps" and claims.order is not None:
         raise MisuseError(
             f"{candidate.name} chooses its own steps: its error is {still.cells[-1].error:.0e} whatever the spacing of "

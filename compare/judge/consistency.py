@@ -21,8 +21,8 @@ if TYPE_CHECKING:
 
 __all__ = ["advance_of_a_constant_slope", "iterates"]
 
-ROUNDING = 1e-12
-"""A relative error of the advance up to this is rounding."""
+ROUNDING, NARROW_ROUNDING = 1e-12, 1e-6
+"""A relative error of the advance up to this is rounding, or up to the second where the step works in binary32."""
 FINER, STAYS = 8, 0.5
 """An advance is wrong if its relative error at h over the first is more than the second of that at h: where a step has
 a part of the motion built in, its error falls with the step."""
@@ -70,7 +70,9 @@ def _advances(candidate: Candidate, scene: _Straight, h: float) -> np.ndarray:
     except (MisuseError, Exhausted):
         return np.ones(positions)
     part = found[positions:] if scene.force else found[:positions]
-    return np.where(np.isfinite(part), part / h, 1.0)
+    advance = np.where(np.isfinite(part), part / h, 1.0)
+    narrow = np.array_equal(found, found.astype(np.float32).astype(np.float64))
+    return np.where(np.abs(advance - 1) < NARROW_ROUNDING, 1.0, advance) if narrow else advance
 
 
 def iterates(candidate: Candidate, marcher: Marcher, h: float) -> bool:

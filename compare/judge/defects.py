@@ -9,6 +9,7 @@ import numpy as np
 
 from compare.judge.courses import Steps
 from compare.judge.engine import Traced, trial_states
+from compare.judge.field import MisuseError
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -83,6 +84,17 @@ def _trials(marcher: Marcher, h: float) -> tuple[np.ndarray, np.ndarray]:
     return np.tile(states, len(FACTORS)), np.repeat([factor * h for factor in FACTORS], STATES)
 
 
+def _hold_finite(defects: np.ndarray, h: np.ndarray) -> None:
+    """Refuse an integrator that gives no number with some step.
+
+    Raises:
+        MisuseError: it does.
+    """
+    lost = ~np.isfinite(defects)
+    if np.any(lost):
+        raise MisuseError(f"a step of h = {np.min(h[lost]):.4g} gives no finite state; finite numbers are accepted.")
+
+
 def _largest(defects: np.ndarray) -> list[float]:
     """The largest defect with each step."""
     return [float(np.max(part)) for part in np.split(defects, len(FACTORS), axis=-1)]
@@ -95,7 +107,9 @@ def symplecticity(marcher: Marcher, h: float, evidence: Evidence) -> Defect:
         jacobians = marcher.engine.jacobian(y, sizes)
     else:
         jacobians = _differences(marcher, y, sizes)
-    defects = np.linalg.det(np.moveaxis(jacobians, -1, 0)) - 1
+    with np.errstate(over="ignore", invalid="ignore"):
+        defects = np.linalg.det(np.moveaxis(jacobians, -1, 0)) - 1
+    _hold_finite(defects, sizes)
     return _judged(_largest(np.abs(defects)), defects, h, evidence)
 
 

@@ -37,7 +37,7 @@ def loaded(name: str) -> Callable[..., Any]:
             raise ValueError(unknown("function", part, functions))
         found = getattr(found, part)
     if not callable(found):
-        raise ValueError(f"{attribute} in {home} is a {type(found).__name__}; a function is accepted.")  # noqa: TRY004 - of words
+        raise ValueError(f"{attribute} in {home} is of type {type(found).__name__}; a function is accepted.")  # noqa: TRY004 - of words
     return _named(attribute, found)
 
 

@@ -108,7 +108,8 @@ def _measured(marcher: Marcher, t_end: float, counts: Sequence[int]) -> Order:
     here, there = _errors(marcher, t_end, counts)
     cells: list[Cell] = []
     for n, error, other in zip(counts, here, there, strict=True):
-        size, noise = (float(np.max(np.abs(value))) for value in (error, error - other))
+        with np.errstate(over="ignore", invalid="ignore"):
+            size, noise = (float(np.max(np.abs(value))) for value in (error, error - other))
         slope = None
         if cells and 0 < size < math.inf and 0 < cells[-1].error < math.inf:
             slope = math.log(cells[-1].error / size) / math.log(n / cells[-1].n)
@@ -127,7 +128,8 @@ def _errors(marcher: Marcher, t_end: float, counts: Sequence[int]) -> tuple[list
     for i, states in enumerate(found):
         steps, size = wanted[i % len(counts)], Fraction(float(h[i % len(counts)]))
         error = scenes[i // len(counts)].errors([step * size for step in steps], states)
-        errors.append(error / np.max(np.abs(states - error), axis=0))
+        with np.errstate(over="ignore", invalid="ignore"):  # a march that is lost has no error that is a number
+            errors.append(error / np.max(np.abs(states - error), axis=0))
     return errors[: len(counts)], errors[len(counts) :]
 
 

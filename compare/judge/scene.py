@@ -25,7 +25,8 @@ if TYPE_CHECKING:
 
 __all__ = ["Frame", "Scene", "scale_of_time"]
 
-BINARY64 = Fraction(1, 1 << 52)
+BINARY32 = Fraction(1, 1 << 24)
+"""A step may work in numbers of so few bits, and both starts must differ in them."""
 
 
 @dataclass(frozen=True)
@@ -69,7 +70,7 @@ class Scene:
 
     def neighbour(self) -> Scene:
         """The same from a start close by."""
-        near = self.problem.neighbour(lambda value: Fraction(float(value)), BINARY64)
+        near = self.problem.neighbour(lambda value: Fraction(float(value)), BINARY32)
         return Scene(near, self.frame)  # type: ignore[arg-type]
 
     def rates(self, m: Arithmetic, t: Any, y: Sequence[Any]) -> tuple[Any, ...]:

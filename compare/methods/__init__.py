@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import unicodedata
 from typing import TYPE_CHECKING
 
 from compare.methods.compositions import COMPOSITIONS
@@ -59,14 +60,19 @@ DEFAULT: tuple[Method, ...] = (
 
 
 def find(name: str) -> Method:
-    """Return the method of this name or alias, however its letters and hyphens are written.
+    """Return the method of this name or alias, however its letters, accents, blanks and hyphens are written.
 
     Raises:
         ValueError: there is none; the sentence names the nearest.
     """
-    plain = str(name).strip().lower().replace("-", "_").replace(" ", "_")
+    plain = _plain(str(name))
     for method in METHODS:
-        if plain in {method.name, *method.aliases}:
+        if plain in {_plain(known) for known in (method.name, *method.aliases)}:
             return method
     names, aliases = [method.name for method in METHODS], [alias for method in METHODS for alias in method.aliases]
     raise ValueError(unknown("method", str(name), names, aliases))
+
+
+def _plain(name: str) -> str:
+    """The letters and digits of a name, without accents."""
+    return "".join(letter for letter in unicodedata.normalize("NFKD", name).casefold() if letter.isalnum())

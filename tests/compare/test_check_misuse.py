@@ -130,7 +130,7 @@ SENTENCES = {
 def test_a_function_that_cannot_be_checked_is_one_sentence(step):
     MEMORY.clear()
     with pytest.raises(ValueError, match=re.escape(SENTENCES[step])) as raised:
-        compare.check(step)
+        compare.compare.check(step)
     sentence = str(raised.value)
     assert sentence.endswith(".")
     assert "\n" not in sentence
@@ -177,7 +177,7 @@ def test_it_is_stopped_in_another_thread_too():
     [
         ({"step": 3}, TypeError, "the integrator is of type int; a function is accepted"),
         ({"step": lambda f: f}, ValueError, r"the integrator has the arguments f; \(f, y, h\)"),
-        ({"step": slips.rk4, "order": -1}, ValueError, "order is -1; a positive number is accepted"),
+        ({"step": slips.rk4, "order": -1}, ValueError, "order is -1; a positive number below 100 is accepted"),
         ({"step": slips.rk4, "order": "four"}, ValueError, "order is 'four'"),
         ({"step": slips.rk4, "form": "stp"}, ValueError, "form 'stp' is unknown, perhaps step"),
         (
@@ -254,7 +254,7 @@ def test_a_module_that_cannot_be_imported_is_one_sentence(name, tmp_path, capsys
         (["no_such_module_anywhere:step"], "cannot be imported: ModuleNotFoundError"),
         (["nowhere.py:step"], "there is no file 'nowhere.py'"),
         ([f"{SLIPS}:rk5"], "function 'rk5' is unknown, perhaps rk4"),
-        ([f"{SLIPS}:W1"], "is a float; a function is accepted"),
+        ([f"{SLIPS}:W1"], "is of type float; a function is accepted"),
         ([f"{SLIPS}:rk4", "--order", "x"], "--order is 'x'; a positive number is accepted"),
         ([f"{SLIPS}:rk4", "--form", "stp"], "perhaps step"),
         ([f"{SLIPS}:rk4", "--symplektic"], "perhaps --symplectic"),
@@ -267,3 +267,41 @@ def test_a_mistake_in_the_command_is_one_sentence_and_exit_code_2(words, says, c
     assert (out, err.count("\n")) == ("", 1)
     assert err.startswith("error: ")
     assert says in err
+
+
+def rk4_that_fails_with_long_steps(f, y, h):
+    """RK4, but no number for h >= 0.15."""
+    if not isinstance(h, (float, np.ndarray)):
+        raise TypeError("numbers are asked for")
+    k1 = f(y)
+    k2 = f(y + h / 2 * k1)
+    k3 = f(y + h / 2 * k2)
+    k4 = f(y + h * k3)
+    return np.where(np.asarray(h) >= 0.15, np.nan, 1.0) * (y + h / 6 * (k1 + 2 * k2 + 2 * k3 + k4))
+
+
+@pytest.mark.parametrize(
+    ("step", "sentence"),
+    [
+        (
+            rk4_that_fails_with_long_steps,
+            r"a step of h = 0\.[12]\d* gives no finite state; finite numbers are accepted\.",
+        ),
+        (lambda f, y, h: y * 1e300, "gives no finite states however short its steps are; finite ones are accepted"),
+    ],
+)
+def test_a_step_that_gives_no_number_now_and_then_is_one_sentence(step, sentence):
+    with pytest.raises(ValueError, match=sentence):
+        compare.check(step)
+
+
+def test_a_step_in_binary32_has_its_order():
+    def midpoint(f, y, h):
+        narrow, size = np.asarray(y, dtype=np.float32), np.float32(h)
+        half = narrow + size / np.float32(2) * np.asarray(f(narrow), dtype=np.float32)
+        return narrow + size * np.asarray(f(half), dtype=np.float32)
+
+    found = compare.check(midpoint, order=2)
+    assert found.claims_hold
+    assert found.advance == 1
+    assert found.measured_order == pytest.approx(2, abs=0.15)

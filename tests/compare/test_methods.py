@@ -10,7 +10,7 @@ import pytest
 
 from compare.algebraic import Q
 from compare.method import Embedded, Method, Splitting, Tableau
-from compare.methods import DEFAULT, METHODS, find
+from compare.methods import METHODS, _plain, find
 from compare.methods.explicit import RK4
 from compare.methods.symplectic import SUZUKI4, VERLET, YOSHIDA4
 from compare.partitioned import Partitioned
@@ -137,3 +137,16 @@ def test_a_table_that_is_no_method_is_refused() -> None:
         Partitioned("bad", 1, "none", ((Q(1),),), ((Q(1), Q(0)),), (Q(1),))
     with pytest.raises(ValueError, match="the weights b sum to 3"):
         Partitioned("bad", 1, "none", ((Q(1),),), ((Q(1),),), (Q(3),))
+
+
+@pytest.mark.parametrize(
+    ("written", "name"),
+    [("Störmer-Verlet", "verlet"), ("yoshida-6", "yoshida6"), ("Kahan-Li 8", "kahan_li8"), ("RK 4", "rk4")],
+)
+def test_a_method_is_found_however_its_name_is_written(written: str, name: str) -> None:
+    assert find(written).name == name
+
+
+def test_no_two_methods_share_a_spelling() -> None:
+    spellings = [_plain(known) for method in METHODS for known in {method.name, *method.aliases}]
+    assert len(spellings) == len(set(spellings))
