@@ -10,7 +10,7 @@ import pytest
 
 from compare.algebraic import Q
 from compare.method import Embedded, Method, Splitting, Tableau
-from compare.methods import METHODS, _plain, find
+from compare.methods import DEFAULT, METHODS, _plain, find
 from compare.methods.explicit import RK4
 from compare.methods.symplectic import SUZUKI4, VERLET, YOSHIDA4
 from compare.partitioned import Partitioned
