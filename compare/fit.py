@@ -22,6 +22,8 @@ SLOPE_TOLERANCE = 0.05
 MIN_CELLS = 3
 SELDOM = 0.25
 """Rounding is mostly an eighth of its bound."""
+CLEAR = 0.001
+"""The spread is that of slopes which rounding changes by no more, where there are two of them."""
 NO_POWER = 0.003
 """By about so much of itself an error of the asymptotic range departs from a power of h."""
 
@@ -43,9 +45,13 @@ def fit_order(method: Method, cells: Sequence[Cell]) -> FittedOrder:
     rounding = spread_rounding = 0.0
     if chosen:
         fitted, rounding = _weighted_slope(np.array(x[first:last]), np.array(y[first:last]), chosen)
-        departures = [abs(slope - fitted) for slope in slopes[first : last - 1]]
-        spread = max(departures)
-        spread_rounding = rounding + SELDOM * chosen[1 + departures.index(spread)].order_rounding
+        pairs = [
+            (abs(slope - fitted), SELDOM * cell.order_rounding)
+            for slope, cell in zip(slopes[first:], chosen[1:], strict=False)
+        ]
+        clear = [pair for pair in pairs if pair[1] <= CLEAR]
+        spread, spread_rounding = max(clear if len(clear) > 1 else pairs)
+        spread_rounding += rounding
     return FittedOrder(
         method=method.name,
         case=cells[0].case,
