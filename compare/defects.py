@@ -140,4 +140,4 @@ def _distance(course: Course, state: np.ndarray) -> float:
     starts = [fmt.round(-value if i in odd else value) for i, value in enumerate(course.problem.start)]
     back = [exactly(value) for value in state]
     gaps = [math.nan if value is None else abs(float(value - start)) for value, start in zip(back, starts, strict=True)]
-    return float(np.max(np.divide(gaps, course.sizes)))
+    return float(np.max(np.divide(gaps, course.reach.sizes)))

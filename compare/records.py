@@ -80,8 +80,8 @@ class FittedOrder(OfCase):
 
     Attributes:
         n_range: the smallest and largest N used, or None.
-        spread: the largest distance of a local slope in the range from the fitted one, of those that are clear of rounding
-            where there are two, or None.
+        spread: the largest distance from the fitted one of a local slope in the range, or None; of those that are clear
+            of rounding where there are two.
         rounding: a bound on rounding's part of the fitted order.
         spread_rounding: the same of the spread.
     """

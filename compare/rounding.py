@@ -1,7 +1,7 @@
 """What rounding makes of the errors of a march: a bound for each, and the cells where it is all there is.
 
 Roundings add up as random steps do: with the root of their number, each carried along as the exact motion carries it
-(``Course.led``).  The bound is a matter of the problem, the method and N, and so the same on every machine.  A
+(``compare.reach``).  The bound is a matter of the problem, the method and N, and so the same on every machine.  A
 neighbour, a course from a start close by, errs differently by rounding alone: where a few steps of it tell of more than
 STRIDE times the bound, as where a method carries roundings further, the problem's bounds are widened.
 
@@ -95,8 +95,10 @@ def _random_steps(method: Method, course: Course, errors: np.ndarray) -> np.ndar
     walk = 0.0 if isinstance(method, Compensated) else math.sqrt(course.n * operations) / 3
     steps = walk + 2 * operations
     along = course.carried(errors)
-    drift = steps * course.drift_led + ENERGY_ROUNDINGS * course.fmt.epsilon
-    return np.array([steps * course.place_led + along, drift, *(steps * course.led + along * course.units)])
+    drift = steps * course.reach.drift_led + ENERGY_ROUNDINGS * course.fmt.epsilon
+    return np.array(
+        [steps * course.reach.place_led + along, drift, *(steps * course.reach.led + along * course.reach.units)]
+    )
 
 
 def _probes(own: Sequence[int], courses: Sequence[Course], sizes: Sequence[float], bounds: Sequence[Any]) -> list[int]:
@@ -114,7 +116,7 @@ def _told(course: Course, result: March, errors: np.ndarray, neighbour: Course, 
     drifts = np.abs(course.drift(result.states) - neighbour.drift(other.states))
     row = np.array([np.max(course.place(gap)), np.max(drifts), *np.max(gap, axis=0)])
     largest = np.array([np.max(course.place(errors)), np.max(drift), *np.max(np.abs(errors), axis=0)])
-    told: np.ndarray = row - SENSITIVE * course.apart * largest
+    told: np.ndarray = row - SENSITIVE * course.reach.apart * largest
     return told
 
 

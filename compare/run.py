@@ -56,7 +56,7 @@ class Run:
     @property
     def phase_rounding(self) -> float:
         """A bound on rounding's part of the phase in rad, which is that of the state in units of its size."""
-        return float(np.max(self.rounding.state / self.course.sizes))
+        return float(np.max(self.rounding.state / self.course.reach.sizes))
 
     @cached_property
     def orbital_known(self) -> bool:

@@ -118,13 +118,13 @@ class _Sizes:
 
     def __init__(self, course: Course, signed: np.ndarray, rounding: Rounding, *, relative: bool) -> None:
         errors, aspect = np.abs(signed), course.aspect
-        units = course.units if relative else np.ones_like(course.units)
+        units = course.reach.units if relative else np.ones_like(course.reach.units)
         scaled, rounded = errors / units, rounding.state / units
         self.floor = rounding.floor
         self.rounding = rounding.place if relative else float(np.max(rounded[list(aspect.places)]))
         self.velocity_rounding = float(np.max(rounded[list(aspect.rates)], initial=0.0))
         self.place, self.velocity = _Norms(scaled[:, list(aspect.places)]), _Norms(scaled[:, list(aspect.rates)])
-        self.worst = _Norms((errors / course.sizes)[:, list(aspect.places)]).largest
+        self.worst = _Norms((errors / course.reach.sizes)[:, list(aspect.places)]).largest
 
 
 class _Norms:
