@@ -21,7 +21,7 @@ __all__ = ["fit_order", "slope_with_interval", "student_95"]
 SLOPE_TOLERANCE = 0.05
 MIN_CELLS = 3
 SELDOM = 0.25
-"""Rounding is mostly an eighth of its bound."""
+"""Of its bound rounding is seldom more than so much, and mostly an eighth."""
 CLEAR = 0.001
 """The spread is that of slopes which rounding changes by no more, where there are two of them."""
 NO_POWER = 0.003
@@ -47,7 +47,7 @@ def fit_order(method: Method, cells: Sequence[Cell]) -> FittedOrder:
         fitted, rounding = _weighted_slope(np.array(x[first:last]), np.array(y[first:last]), chosen)
         pairs = [
             (abs(slope - fitted), SELDOM * cell.order_rounding)
-            for slope, cell in zip(slopes[first:], chosen[1:], strict=False)
+            for slope, cell in zip(slopes[first : last - 1], chosen[1:], strict=True)
         ]
         clear = [pair for pair in pairs if pair[1] <= CLEAR]
         spread, spread_rounding = max(clear if len(clear) > 1 else pairs)

@@ -85,7 +85,6 @@ FAMILIES: dict[str, dict[str, Option]] = {
 }
 LAST = {"pendulum": 2**20}
 """The largest number of steps of a study that names none."""
-SHARED = ("methods", "n", "scores")
 
 
 @dataclass(frozen=True)
