@@ -8,13 +8,18 @@ STAMP := $(VENV)/.installed
 BIN := $(VENV)/$(if $(filter Windows_NT,$(OS)),Scripts,bin)
 RUN := $(BIN)/python
 
-.PHONY: help setup run data test bench clean
+# What pyproject.toml allows, from its lower bounds to the newest of everything; what is old may use what is deprecated.
+SETS := lowest-direct highest
+FLAGS_lowest-direct := -W default::DeprecationWarning -W default::PendingDeprecationWarning
+
+.PHONY: help setup run data test bounds bench clean
 
 help:
 	@echo "make run    print the pendulum's tables (sets everything up first)"
 	@echo "make test   lint, type-check and run all tests (sets everything up first)"
 	@echo "make setup  create $(VENV) with the pinned dependencies"
 	@echo "make data   build the core dataset, if it is not there"
+	@echo "make bounds run all tests with the lowest and with the newest versions that pyproject.toml allows"
 	@echo "make bench  run the benchmarks"
 	@echo "make clean  remove $(VENV), caches and builds; the dataset stays"
 	@echo "PYTHON=... chooses the interpreter (3.11 or newer), VENV=... the environment's folder."
@@ -46,9 +51,22 @@ test: $(STAMP) $(DATASET)
 	$(RUN) -m mypy
 	$(RUN) -m pytest
 
+bounds: $(STAMP) $(DATASET)
+	$(foreach set,$(SETS),$(call tested_with,$(set)))
+
+define tested_with
+@echo "== $(1)"
+"$(PYTHON)" -m venv --clear .venv-$(1)
+.venv-$(1)/$(notdir $(BIN))/python -m pip install --quiet --constraint constraints.txt uv
+.venv-$(1)/$(notdir $(BIN))/python -m uv pip install --python .venv-$(1) --resolution $(1) --editable '.[test,xarray]'
+.venv-$(1)/$(notdir $(BIN))/python -m pytest $(FLAGS_$(1))
+.venv-$(1)/$(notdir $(BIN))/python -c 'import reference; print(reference.load().to_xarray()["pendulum/libration"])'
+
+endef
+
 bench: $(STAMP) $(DATASET)
 	@for script in tests/benchmarks/*.py; do echo "== $$script"; $(RUN) $$script || exit 1; done
 
 clean:
-	rm -rf $(VENV) build dist .pytest_cache .ruff_cache .mypy_cache .hypothesis
+	rm -rf $(VENV) $(SETS:%=.venv-%) build dist .pytest_cache .ruff_cache .mypy_cache .hypothesis
 	find reference compare tests -name __pycache__ -type d -prune -exec rm -rf {} +
