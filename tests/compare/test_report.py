@@ -107,7 +107,9 @@ def test_an_interrupted_report_goes_on_where_it_stopped(tmp_path, monkeypatch):
     assert not out.exists()
     kept = tmp_path / "new" / "report.partial" / wanted.identity
     assert len(list(kept.glob("*.block"))) == 3
-    finished = {task: points for task in wanted.tasks if (points := Kept(kept).get(task)) is not None}
+    with suppress(KeyboardInterrupt), partial(out, wanted.identity) as unfinished:
+        finished = {task: points for task in wanted.tasks if (points := Kept(unfinished).get(task)) is not None}
+        raise KeyboardInterrupt
     next(kept.glob("*.block")).write_text("damaged")
 
     again, steps = [], []
@@ -124,7 +126,7 @@ def test_an_interrupted_report_goes_on_where_it_stopped(tmp_path, monkeypatch):
 def test_groups_of_another_report_are_not_used(tmp_path):
     wanted, other = plan(**SMALL), plan(**{**SMALL, "amplitudes": [1.0]})
     with suppress(KeyboardInterrupt), partial(tmp_path / "report", other.identity) as unfinished:
-        Kept(unfinished.folder).put(other.tasks[0], work(other.tasks[0]))
+        Kept(unfinished).put(other.tasks[0], work(other.tasks[0]))
         raise KeyboardInterrupt
     steps = []
     run(wanted, tmp_path / "report", progress=lambda done, _total: steps.append(done))

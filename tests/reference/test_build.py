@@ -21,7 +21,7 @@ from reference.certify import Agreement
 from reference.groups import pendulum as groups
 from reference.plan import BLOCK_LENGTH, Group, Plan
 from reference.store import load
-from reference.store.files import note_checksum
+from reference.store.checksums import note_checksum
 
 ROOT = Path(reference.__file__).parents[1]
 
