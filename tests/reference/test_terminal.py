@@ -221,12 +221,14 @@ def test_a_build_that_is_terminated_leaves_its_finished_blocks_and_no_temporary_
 
 
 @pytest.mark.parametrize(
-    ("number", "code", "said"), [(signal.SIGTERM, 143, b"terminated.\n"), (signal.SIGINT, 130, b"interrupted.\n")]
+    ("number", "made", "found"),
+    [
+        (signal.SIGINT, "x.h5.partial", (130, b"interrupted.\n")),
+        (signal.SIGTERM, "x.h5.partial/*/*.block", (143, b"terminated.\n")),
+    ],
 )
-@pytest.mark.parametrize("made", ["x.h5.partial", "x.h5.partial/*/*.block"])
-def test_a_build_whose_processes_are_all_signalled_says_one_line(tmp_path, number, code, said, made):
+def test_a_build_whose_processes_are_all_signalled_says_one_line(tmp_path, number, made, found):
     """While they begin, and while they prove; a traceback of the pool's thread or of a process stood beside it."""
     words = ["reference", "build", "--out", "x.h5", "--jobs", "2"]
-    found = terminated(words, tmp_path, lambda: any(tmp_path.glob(made)), number)
-    assert found == (code, said)
+    assert terminated(words, tmp_path, lambda: any(tmp_path.glob(made)), number) == found
     assert [path.name for path in tmp_path.iterdir()] in ([], ["x.h5.partial"])
