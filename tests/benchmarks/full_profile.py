@@ -10,10 +10,13 @@ from __future__ import annotations
 import os
 import sys
 import time
+from typing import TYPE_CHECKING
 
 from reference.blocks import compute
 from reference.catalogue import plan
-from reference.plan import Group
+
+if TYPE_CHECKING:
+    from reference.plan import Group
 
 
 def seconds(group: Group, row: str) -> float:
