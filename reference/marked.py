@@ -212,6 +212,8 @@ def _opened_lock(path: Path, handle: int) -> int:
 
 def _foreign(path: Path, error: OSError | None = None) -> PlaceError:
     """The refusal of what is at a path, by its kind, or by the reason for which it cannot be opened."""
+    if error is not None and error.errno == errno.ENAMETOOLONG:
+        return PlaceError(f"'{path}' is too long a name for a file; choose a shorter one for the output.")
     if error is not None and error.errno not in {errno.ELOOP, errno.ENOTDIR}:
         return PlaceError(f"'{path}' cannot be opened ({error.strerror}); make it accessible or move it elsewhere.")
     return PlaceError(f"'{path}' is {kind_of(path)} that this program did not make; move it elsewhere.")

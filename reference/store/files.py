@@ -34,11 +34,14 @@ def destination(path: str | os.PathLike[str]) -> Path:
     """Return the file that a result is to replace, links resolved.
 
     Raises:
-        FileNotFoundError, IsADirectoryError, OSError: its folder is missing, it is a folder, or it is no regular file.
+        FileNotFoundError, IsADirectoryError, OSError: its folder is missing, it is a folder, no regular file, or a link
+            that leads nowhere.
     """
     if not os.fspath(path):
         raise FileNotFoundError("the output path is empty; the name of a file is accepted.")
-    target = Path(os.path.realpath(path))
+    target = Path(os.path.realpath(os.fsdecode(path)))
+    if target.is_symlink():
+        raise OSError(f"'{path}' is a link that leads to itself; choose another output path.")
     if target.is_dir():
         raise IsADirectoryError(f"'{path}' is a folder; the name of a file is accepted.")
     if not target.parent.is_dir():

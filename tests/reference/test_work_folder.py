@@ -177,6 +177,26 @@ def test_an_output_may_not_be_the_list_of_checksums(tmp_path, capsys):
 
 
 @pytest.mark.usefixtures("no_work")
+def test_an_output_that_is_a_link_to_itself_is_refused_and_stays(tmp_path, capsys):
+    (tmp_path / "x.h5").symlink_to("x.h5")
+    assert "is a link that leads to itself" in refused(capsys, tmp_path / "x.h5")
+    assert (tmp_path / "x.h5").is_symlink()
+    assert leftovers(tmp_path) == ["x.h5"]
+
+
+@pytest.mark.usefixtures("no_work")
+def test_a_name_to_which_nothing_can_be_added_is_refused(tmp_path, capsys):
+    assert "is too long a name for a file; choose a shorter one" in refused(capsys, tmp_path / ("x" * 250))
+    assert leftovers(tmp_path) == []
+
+
+def test_an_output_may_be_named_by_bytes_and_have_as_long_a_name_as_fits(tmp_path):
+    out = tmp_path / ("x" * 247)
+    build(TINY, os.fsencode(out))
+    assert leftovers(tmp_path) == ["SHA256SUMS", out.name]
+
+
+@pytest.mark.usefixtures("no_work")
 @pytest.mark.parametrize("epoch", ["today", "", "-1", "1.5", "١٢", "9" * 12])
 def test_a_date_that_is_no_number_is_told_before_the_proof(tmp_path, monkeypatch, capsys, epoch):
     monkeypatch.setenv("SOURCE_DATE_EPOCH", epoch)
