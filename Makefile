@@ -68,5 +68,7 @@ bench: $(STAMP) $(DATASET)
 	@for script in tests/benchmarks/*.py; do echo "== $$script"; $(RUN) $$script || exit 1; done
 
 clean:
-	rm -rf $(VENV) $(SETS:%=.venv-%) build dist .pytest_cache .ruff_cache .mypy_cache .hypothesis
+	@if test -L "$(VENV)" || { test -e "$(VENV)" && ! test -f "$(STAMP)"; }; then \
+		echo "$(VENV) was not set up by make; it stays." >&2; else rm -rf "$(VENV)"; fi
+	rm -rf $(SETS:%=.venv-%) build dist .pytest_cache .ruff_cache .mypy_cache .hypothesis
 	find reference compare tests -name __pycache__ -type d -prune -exec rm -rf {} +

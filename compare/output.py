@@ -4,15 +4,22 @@ from __future__ import annotations
 
 import contextlib
 import os
-import secrets
 import shutil
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from reference.interrupts import held
+from reference.marked import PlaceError, abandoned, kind_of, made
+
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
 
+    from reference.marked import Marked
+
 __all__ = ["Folder", "OutputError", "folder"]
+
+NEW, OLD = "new", "old"
+"""Folders in the stage: of the results, and of the files that they replace until all have."""
 
 
 class OutputError(OSError):
@@ -22,7 +29,7 @@ class OutputError(OSError):
 class Folder:
     """A folder of results in the making: `write` collects files out of sight, and leaving `folder` shows them."""
 
-    def __init__(self, target: Path, stage: Path, inside: Path) -> None:
+    def __init__(self, target: Path, stage: Marked, inside: str) -> None:
         self.target = target
         self._stage = stage
         self._inside = inside
@@ -31,7 +38,8 @@ class Folder:
     def write(self, files: Mapping[str, bytes]) -> None:
         """Add files by name, out of sight."""
         for name, content in files.items():
-            with (self._inside / name).open("wb") as stream:
+            self._stage.note(f"{self._inside}/{name}")
+            with (self._stage.path / self._inside / name).open("xb") as stream:
                 stream.write(content)
                 stream.flush()
                 os.fsync(stream.fileno())
@@ -43,11 +51,53 @@ class Folder:
         return tuple(self._names)
 
     def show(self) -> None:
-        """Move everything to its place: one rename of a new folder, or each file into a folder that stands."""
-        if self._stage.parent == self.target:
-            _replace_all(self._inside, self.target, self._names)
-        else:
-            self._stage.rename(_first_missing(self.target))
+        """Move everything to its place: one rename of a new folder, or each file into a folder that stands.
+
+        Interrupts wait until it is done.
+        """
+        with held():
+            if self._stage.path.parent == self.target:
+                self._replace_all()
+            else:
+                (self._stage.path / NEW).rename(_first_missing(self.target))
+
+    def _replace_all(self) -> None:
+        """Move the files over those of the same names; if one cannot be moved, put all back as they were.
+
+        At every moment each name has its old file or its new one.
+        """
+        source, old = self._stage.path / self._inside, self._stage.path / OLD
+        _make(self._stage, OLD)
+        replaced: list[str] = []
+        try:
+            for name in self._names:
+                place = self.target / name
+                if os.path.lexists(place):
+                    self._stage.note(f"{OLD}/{name}")
+                    _keep(place, old / name)
+                (source / name).replace(place)
+                replaced.append(name)
+        except BaseException:
+            for name in replaced:
+                if (old / name).exists():
+                    (old / name).replace(self.target / name)
+                else:
+                    (self.target / name).unlink(missing_ok=True)
+            raise
+
+
+def _keep(file: Path, kept: Path) -> None:
+    """Give a file a second name, or where the disk has none of these, a copy.
+
+    Raises:
+        FileExistsError: it is a link, a folder or a device.
+    """
+    if file.is_symlink() or not file.is_file():
+        raise FileExistsError(None, f"{file.name} in it is {kind_of(file)}")
+    try:
+        kept.hardlink_to(file)
+    except OSError:
+        shutil.copy2(file, kept)
 
 
 @contextlib.contextmanager
@@ -57,21 +107,25 @@ def folder(path: str | os.PathLike[str]) -> Iterator[Folder]:
     That it can be written is found out on entry, before anything is computed.
 
     Raises:
-        OutputError: the path is a file, or cannot be written, or the disk is full.
+        OutputError: the path is a file, or cannot be written, or the disk is full, or what is not a regular file has
+            the name of a result.
     """
     try:
         target = _target(path)
         stage, inside = _make_stage(target)
     except (OSError, ValueError) as error:
         raise OutputError(_sentence(path, error)) from error
-    try:
-        results = Folder(target, stage, inside)
-        yield results
-        results.show()
-    except OSError as error:
-        raise OutputError(_sentence(path, error)) from error
-    finally:
-        shutil.rmtree(stage, ignore_errors=True)
+    with stage:
+        try:
+            results = Folder(target, stage, inside)
+            yield results
+            results.show()
+        except PlaceError:
+            raise
+        except OSError as error:
+            raise OutputError(_sentence(path, error)) from error
+        finally:
+            _clear(stage)
 
 
 def _target(path: str | os.PathLike[str]) -> Path:
@@ -83,38 +137,33 @@ def _target(path: str | os.PathLike[str]) -> Path:
     return target
 
 
-def _make_stage(target: Path) -> tuple[Path, Path]:
-    """A hidden folder on the target's disk, and the folder in it where files are collected."""
+def _make_stage(target: Path) -> tuple[Marked, str]:
+    """A hidden folder on the target's disk, and the path in it of the folder where files are collected."""
     first = None if target.is_dir() else _first_missing(target)
     parent = target if first is None else first.parent
-    _clear_orphans(parent)
-    stage = parent / f".horologium-{os.getpid()}-{secrets.token_hex(4)}"
-    stage.mkdir()
-    inside = stage if first is None else stage / target.relative_to(first)
+    for orphan in abandoned(parent):
+        _clear(orphan)
+    stage = made(parent)
+    below = () if first is None else target.relative_to(first).parts
     try:
-        inside.mkdir(parents=True, exist_ok=True)
-    except OSError:
-        shutil.rmtree(stage, ignore_errors=True)
+        for depth in range(len(below) + 1):
+            _make(stage, "/".join((NEW, *below[:depth])))
+    except BaseException:
+        with stage:
+            _clear(stage)
         raise
-    return stage, inside
+    return stage, "/".join((NEW, *below))
 
 
-def _clear_orphans(parent: Path) -> None:
-    """Remove the stages of processes of ours that were killed before they could."""
-    for stage in parent.glob(".horologium-*-*"):
-        pid = stage.name.split("-")[1]
-        if stage.is_dir() and pid.isdecimal() and not _is_running(int(pid)):
-            shutil.rmtree(stage, ignore_errors=True)
+def _make(stage: Marked, path: str) -> None:
+    stage.note(f"{path}/")
+    (stage.path / path).mkdir()
 
 
-def _is_running(pid: int) -> bool:
-    try:
-        os.kill(pid, 0)
-    except ProcessLookupError:
-        return False
-    except PermissionError:
-        return True
-    return True
+def _clear(stage: Marked) -> None:
+    """Remove what was made in a stage, and the stage."""
+    with contextlib.suppress(OSError):  # nobody is waiting for it, and the next run tries again
+        stage.remove(stage.noted().__contains__)
 
 
 def _first_missing(target: Path) -> Path:
@@ -123,27 +172,6 @@ def _first_missing(target: Path) -> Path:
     while not missing.parent.exists():
         missing = missing.parent
     return missing
-
-
-def _replace_all(source: Path, target: Path, names: list[str]) -> None:
-    """Move the files over those of the same names; if one cannot be moved, put all back as they were."""
-    kept = source / "replaced"
-    kept.mkdir()
-    done: list[str] = []
-    try:
-        for name in names:
-            if (target / name).is_dir():
-                raise IsADirectoryError(None, f"{name} in it is a folder")
-            if (target / name).exists():
-                (target / name).rename(kept / name)
-            done.append(name)
-            (source / name).rename(target / name)
-    except OSError:
-        for name in done:
-            (target / name).unlink(missing_ok=True)
-            if (kept / name).exists():
-                (kept / name).rename(target / name)
-        raise
 
 
 def _sentence(path: str | os.PathLike[str], error: OSError | ValueError) -> str:

@@ -123,6 +123,8 @@ def _build(asked: argparse.Namespace) -> int:
 
     wanted = plan(asked.profile) if asked.config is None else plan_from(asked.config)
     out = _default_out(wanted.profile) if asked.out is None else asked.out
+    if asked.config is not None and os.path.realpath(asked.config) == os.path.realpath(out):
+        raise ValueError(f"the output '{out}' is the grid file itself; choose another output path.")
     with progress_bar("proving", quiet=asked.quiet) as progress:
         fingerprint = build(wanted, out, jobs=asked.jobs, executor=asked.executor, progress=progress)
     if not asked.quiet:

@@ -7,6 +7,8 @@ import math
 import os
 import platform
 import shutil
+from collections import deque
+from contextlib import suppress
 from dataclasses import dataclass, field
 from datetime import UTC, datetime
 from importlib.metadata import version as installed
@@ -14,18 +16,19 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import reference
-from reference.blocks import compute
+from reference.blocks import Result, compute
 from reference.certify import ROUTES
 from reference.claims import attributes
 from reference.executors import opened, results
-from reference.partial import partial
-from reference.store.files import destination, note_checksum, replacing, sha256
+from reference.partial import PlaceError, partial, place_of
+from reference.store import DatasetError
+from reference.store.checksums import CHECKSUMS, checksums, note_checksum, require_notable
+from reference.store.files import destination, replacing, sha256, temporaries
 from reference.store.writer import writing
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Mapping
 
-    from reference.blocks import Result
     from reference.partial import Partial
     from reference.plan import Plan
     from reference.problem import Row
@@ -52,22 +55,76 @@ def build(
     The old file stays until the new one takes its place.  ``progress(done, all)`` is called after each block.
 
     Raises:
-        OSError: ``out`` is a folder, its folder is missing or cannot be written, or the disk is full.
+        OSError: ``out`` is a folder, its folder is missing or cannot be written, the disk is full, or what stands in
+            the place of the unfinished blocks, ``out.partial``, is not ours.
+        DatasetError: the list of checksums beside it is damaged or cannot be written.
         ArithmeticError: the routes disagree, or a value could not be decided; names the problem and its values.
-        ValueError, ImportError: the executor is unknown, or its package is not installed.
+        ValueError, ImportError: SOURCE_DATE_EPOCH is no number of seconds; the executor is unknown, or its package is
+            not installed.
         BusyError, WorkerError: another build of the same file is running; a worker process died.
     """
     target = destination(out)
+    if target.name == CHECKSUMS:
+        raise OSError(f"'{out}' is the list of checksums beside the datasets; choose another output path.")
+    require_notable(target.parent)
+    made_with = provenance()
+    before = Standing.of(target)
     try:
         with partial(target, plan.identity(reference.__version__)) as finished:
             _ensure_space(plan, target)
             _prove(plan, finished, jobs, executor, progress or (lambda _done, _all: None))
-            return _write(plan, target, finished)
-    except (PermissionError, FileNotFoundError) as error:
-        raise OSError(f"'{out}' cannot be written: no file can be made in that folder ({error.strerror}).") from None
+            return _write(plan, target, finished, made_with)
+    except PlaceError:
+        raise
     except OSError as error:
         reason = "the disk is full" if error.errno in DISK_FULL else error.strerror or str(error)
-        raise OSError(f"'{out}' was not written: {reason}; nothing was left behind.") from None
+        raise OSError(before.outcome(out, reason)) from None
+    except DatasetError as error:
+        if before.is_replaced:
+            raise OSError(before.outcome(out, str(error).rstrip("."))) from None
+        raise
+
+
+@dataclass(frozen=True)
+class Standing:
+    """The file and the checksum that stand at an output before it is built."""
+
+    target: Path
+    status: os.stat_result | None
+    noted: str | None
+
+    @classmethod
+    def of(cls, target: Path) -> Standing:
+        """What stands there now."""
+        return cls(target, _status(target), checksums(target.parent).get(target.name))
+
+    @property
+    def is_replaced(self) -> bool:
+        """Whether another file stands there by now."""
+        now = _status(self.target)
+        return now is not None and (self.status is None or not os.path.samestat(now, self.status))
+
+    def restore(self) -> None:
+        """Note the checksum of the file again, where it still stands there."""
+        if self.noted is not None and not self.is_replaced:
+            note_checksum(self.target, self.noted)
+
+    def outcome(self, out: str | os.PathLike[str], reason: str) -> str:
+        """What became of a build that failed for a reason, by what is on the disk, in one sentence."""
+        home = place_of(self.target)
+        left = [f"'{name}'" for name in ([home.name] if os.path.lexists(home) else []) + temporaries(self.target)]
+        remains = f"{' and '.join(left) or 'nothing'} was left behind"
+        if self.is_replaced:
+            noted = checksums(self.target.parent).get(self.target.name) is not None
+            missing = "what it was made from was not removed" if noted else "its checksum was not noted"
+            return f"'{out}' was written, but {missing}: {reason}; {remains}."
+        if checksums(self.target.parent).get(self.target.name) != self.noted:
+            remains += f", and the line of the old file in {CHECKSUMS} was lost"
+        return f"'{out}' was not written: {reason}; {remains}."
+
+
+def _status(target: Path) -> os.stat_result | None:
+    return target.stat() if target.exists() else None
 
 
 def _ensure_space(plan: Plan, target: Path) -> None:
@@ -78,15 +135,16 @@ def _ensure_space(plan: Plan, target: Path) -> None:
 
 def _prove(plan: Plan, finished: Partial, jobs: int, executor: str, progress: Callable[[int, int], None]) -> None:
     """Prove every block that is not finished yet."""
-    total = sum(1 for _ in plan.blocks())
-    pending = sum(1 for block in plan.blocks() if not finished.has(block))
-    done = total - pending
+    blocks = deque(plan.blocks())
+    total = len(blocks)
+    pending = deque(block for block in blocks if not finished.has(block.key))
+    blocks.clear()
+    done = total - len(pending)
     progress(done, total)
-    workers = max(1, min(jobs, pending)) if jobs > 0 else jobs
+    workers = max(1, min(jobs, len(pending))) if jobs > 0 else jobs
     with opened(executor, workers) as pool:
-        open_blocks = (block for block in plan.blocks() if not finished.has(block))
-        for block, result in results(pool, compute, open_blocks, workers):
-            finished.put(block, result)
+        for block, result in results(pool, compute, (pending.popleft() for _ in range(total - done)), workers):
+            finished.put(block.key, result.dumped())
             done += 1
             progress(done, total)
 
@@ -114,15 +172,21 @@ class Tally:
         return attributes(self.row, self.digits, self.checked, self.decimals)
 
 
-def _write(plan: Plan, target: Path, finished: Partial) -> str:
+def _write(plan: Plan, target: Path, finished: Partial, made_with: Mapping[str, str]) -> str:
     """Write the finished blocks in the order of the plan, and let the file take its place."""
-    with replacing(target) as temporary:
-        with writing(temporary, plan) as writer:
-            _fill(plan, writer, finished)
-            fingerprint = writer.finish(reference.__version__, plan.profile, provenance())
-        digest = sha256(temporary)
-        note_checksum(target, None)
-    note_checksum(target, digest)
+    before = Standing.of(target)
+    try:
+        with replacing(target) as temporary:
+            with writing(temporary, plan) as writer:
+                _fill(plan, writer, finished)
+                fingerprint = writer.finish(reference.__version__, plan.profile, made_with)
+            digest = sha256(temporary)
+            note_checksum(target, None)
+        note_checksum(target, digest)
+    except BaseException:
+        with suppress(OSError, DatasetError):  # the error that is under way says what became of it
+            before.restore()
+        raise
     return fingerprint
 
 
@@ -130,7 +194,8 @@ def _fill(plan: Plan, writer: Writer, finished: Partial) -> None:
     tallies: dict[str, Tally] = {}
     trajectories: dict[tuple[str, int, str], list[int]] = {}
     for block in plan.blocks():
-        result = finished.get(block) or compute(block)
+        data = finished.get(block.key)
+        result = (None if data is None else Result.loaded(data)) or compute(block)
         writer.put(block, result.limbs)
         for i, quantity in enumerate(block.row.quantities):
             tallies.setdefault(f"{block.layout.path}/{quantity.name}", Tally(block.row)).add(result, i)
@@ -163,7 +228,7 @@ def provenance() -> dict[str, str]:
     found |= {"python": platform.python_version(), "platform": platform.platform(), "cpu": _cpu()}
     epoch = os.environ.get("SOURCE_DATE_EPOCH")
     if epoch is not None:
-        if not epoch.isdecimal() or len(epoch) > 11:
+        if not (epoch.isascii() and epoch.isdecimal()) or len(epoch) > 11:
             raise ValueError(f"SOURCE_DATE_EPOCH is '{epoch}'; a whole number of seconds since 1970 is accepted.")
         found["date"] = datetime.fromtimestamp(int(epoch), UTC).isoformat()
     return found

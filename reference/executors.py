@@ -10,12 +10,14 @@ from collections import deque
 from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Executor, Future, ProcessPoolExecutor, wait
 from contextlib import contextmanager
 from importlib import import_module
+from multiprocessing import connection, resource_tracker
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from reference.names import unknown
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator
+    from multiprocessing.connection import Connection
 
 __all__ = ["EXECUTORS", "WorkerError", "opened", "processes", "results"]
 
@@ -72,21 +74,46 @@ def opened(name: str, jobs: int) -> Iterator[Executor]:
             yield executor
 
 
+class Pool(ProcessPoolExecutor):
+    """A pool whose processes begin deaf to interrupts: what they import would otherwise end in a traceback."""
+
+    def submit(self, fn: Callable[..., Any], /, *args: Any, **kwargs: Any) -> Future[Any]:
+        """Return the future of the task; a process may begin, which inherits what is blocked."""
+        before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+        try:
+            return super().submit(fn, *args, **kwargs)
+        finally:
+            signal.pthread_sigmask(signal.SIG_SETMASK, before)
+
+
 @contextmanager
 def processes(count: int) -> Iterator[Executor]:
-    """Open a pool of ``count`` fresh processes, at least one, that end with this one."""
-    with ProcessPoolExecutor(count, multiprocessing.get_context("spawn"), initializer=_follow_parent) as executor:
-        yield executor
+    """Open a pool of ``count`` fresh processes, at least one, that end with this one.
+
+    On an error they end at once, in the middle of what they do.  Their futures are cancelled by the pool alone: one
+    that somebody else had cancelled would stop the pool's own thread, with a traceback, where a process dies.
+    """
+    context = multiprocessing.get_context("spawn")
+    resource_tracker.ensure_running()  # which lets in what is blocked
+    held, letting_go = context.Pipe(duplex=False)
+    with held, letting_go, Pool(count, context, initializer=_follow_parent, initargs=(held,)) as executor:
+        try:
+            yield executor
+        except BaseException:
+            letting_go.close()
+            executor.shutdown(wait=True, cancel_futures=True)
+            raise
 
 
-def _follow_parent() -> None:
-    """Leave an interrupt to the parent, and end when it ends, however it does."""
+def _follow_parent(held: Connection) -> None:
+    """Leave an interrupt to the parent, and end when it ends, however it does, or when it lets go."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
+    signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGINT})
     parent = multiprocessing.parent_process()
 
     def watch() -> None:
         if parent is not None:
-            parent.join()
+            connection.wait([parent.sentinel, held])
             os._exit(1)
 
     threading.Thread(target=watch, daemon=True).start()
@@ -139,5 +166,6 @@ def results(
             "a worker process died before its block was finished; the finished blocks are kept."
         ) from None
     finally:
-        for future in running:
-            future.cancel()
+        if not isinstance(executor, ProcessPoolExecutor):  # which cancels its own
+            for future in running:
+                future.cancel()

@@ -45,6 +45,8 @@ def plan_from(path: str) -> Plan:
         ValueError: the file is not there, is not named or written as TOML, or a group, parameter or input in it is
             missing, unknown, twice there or not acceptable.
     """
+    if not Path(path).name.isprintable():
+        raise ValueError(f"the grid file is {short(path)!a}; a name of printable letters is accepted.")
     if not path.endswith(SUFFIX):
         raise ValueError(f"the grid file is '{short(path)}'; a name that ends with {SUFFIX} is accepted.")
     try:

@@ -2,87 +2,116 @@
 
 from __future__ import annotations
 
-import fcntl
 import hashlib
-import shutil
-from contextlib import contextmanager
+import os
+import re
+from contextlib import contextmanager, suppress
 from typing import TYPE_CHECKING
 
-from reference.blocks import Result
+from reference.marked import BusyError, PlaceError, abandoned, required
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
     from pathlib import Path
 
-    from reference.plan import Block
+    from reference.marked import Marked
 
-__all__ = ["BusyError", "Partial", "partial"]
+__all__ = ["BusyError", "Partial", "PlaceError", "partial", "place_of"]
 
-
-class BusyError(RuntimeError):
-    """Another process is at work on the same output."""
+IDENTITY = re.compile(r"[0-9a-f]{64}")
+FORM = re.compile(IDENTITY.pattern + r"/([0-9a-f]{32}\.(block|tmp))?")
+"""The folder of a plan, and a block in it."""
+NO_LINK = os.O_NOFOLLOW | os.O_NONBLOCK
 
 
 class Partial:
-    """The folder of the finished blocks of one plan."""
+    """The finished blocks of one plan, as bytes by their keys, in an open folder."""
 
-    def __init__(self, folder: Path) -> None:
-        self.folder = folder
+    def __init__(self, handle: int) -> None:
+        self._handle = handle
+        self._finished = {name for name in os.listdir(handle) if name.endswith(".block")}
 
-    def _path(self, block: Block) -> Path:
-        return self.folder / (hashlib.sha256(block.key.encode()).hexdigest()[:32] + ".block")
-
-    def has(self, block: Block) -> bool:
+    def has(self, key: str) -> bool:
         """Whether the block was finished before; whether it is whole is seen when it is read."""
-        return self._path(block).exists()
+        return _name(key) in self._finished
 
-    def put(self, block: Block, result: Result) -> None:
+    def put(self, key: str, data: bytes) -> None:
         """Keep a finished block: it is there as a whole or not at all."""
-        path = self._path(block)
-        unfinished = path.with_suffix(".tmp")
-        unfinished.write_bytes(result.dumped())
-        unfinished.replace(path)
+        name = _name(key)
+        unfinished = name.replace(".block", ".tmp")
+        with suppress(FileNotFoundError):
+            os.unlink(unfinished, dir_fd=self._handle)
+        with open(unfinished, "xb", opener=self._opened) as stream:
+            stream.write(data)
+        os.replace(unfinished, name, src_dir_fd=self._handle, dst_dir_fd=self._handle)
+        self._finished.add(name)
 
-    def get(self, block: Block) -> Result | None:
-        """The finished block, or None where there is none or it is damaged."""
-        path = self._path(block)
-        return Result.loaded(path.read_bytes()) if path.exists() else None
+    def get(self, key: str) -> bytes | None:
+        """The finished block, or None where there is none."""
+        try:
+            with open(_name(key), "rb", opener=self._opened) as stream:
+                return stream.read()
+        except FileNotFoundError:
+            return None
+
+    def _opened(self, name: str, flags: int) -> int:
+        return os.open(name, flags | NO_LINK, 0o600, dir_fd=self._handle)
+
+
+def _name(key: str) -> str:
+    return hashlib.sha256(key.encode()).hexdigest()[:32] + ".block"
+
+
+def place_of(target: Path) -> Path:
+    """The folder of the unfinished blocks of an output."""
+    return target.with_name(target.name + ".partial")
 
 
 @contextmanager
 def partial(target: Path, identity: str) -> Iterator[Partial]:
-    """Open the folder ``TARGET.partial`` for a plan; blocks of another plan or version in it are thrown away.
+    """Open the folder ``TARGET.partial`` for a plan of this identity, 64 hexadecimal digits.
 
-    It is removed when the build is finished, when nothing is in it, and when the disk is full or unwritable (OSError);
-    whatever else stops the build, such as an interrupt, leaves it for the next one.
+    Blocks of another plan or version in it are thrown away.  It is removed when the build is finished, when nothing is
+    in it, and when the disk is full or unwritable (OSError); whatever else stops the build, such as an interrupt,
+    leaves it for the next one.
 
     Raises:
         BusyError: another build of the same file is running.
+        PlaceError: the folder was not made by us, or holds what was not; it is left as it is.
         OSError: the folder cannot be written.
+        ValueError: the identity is of another form.
     """
-    home = target.with_name(target.name + ".partial")
+    if not IDENTITY.fullmatch(identity):
+        raise ValueError(f"the identity is '{identity}'; 64 hexadecimal digits are accepted.")
     try:
-        home.mkdir(exist_ok=True)
-        with (home / "lock").open("w") as lock:
-            _lock(lock.fileno(), target)
-            for stale in home.iterdir():
-                if stale.is_dir() and stale.name != identity:
-                    shutil.rmtree(stale)
-            folder = home / identity
-            folder.mkdir(exist_ok=True)
-            yield Partial(folder)
+        for orphan in abandoned(target.parent):
+            orphan.remove(FORM.fullmatch)
+        home = required(place_of(target), FORM.fullmatch)
     except BusyError:
-        raise
-    except BaseException as error:
-        if isinstance(error, OSError) or not any(home.glob("*/*.block")):
-            shutil.rmtree(home, ignore_errors=True)
-        raise
-    shutil.rmtree(home)
-
-
-def _lock(handle: int, target: Path) -> None:
-    """Hold the folder until it is closed or the process ends, however it ends."""
-    try:
-        fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
-    except BlockingIOError:
         raise BusyError(f"another build is writing '{target}'; wait for it or choose another output path.") from None
+    except (PermissionError, FileNotFoundError) as error:
+        raise PlaceError(
+            f"'{target}' cannot be written: no file can be made in that folder ({error.strerror})."
+        ) from None
+    with home:
+        try:
+            home.clear(lambda path: FORM.fullmatch(path) and not path.startswith(identity))
+            with _inside(home, identity) as finished:
+                yield finished
+        except BaseException as error:
+            if isinstance(error, OSError) or not any(path.endswith(".block") for path in home.paths()):
+                with suppress(OSError):  # the error that is under way says more
+                    home.remove(FORM.fullmatch)
+            raise
+        home.remove(FORM.fullmatch)
+
+
+@contextmanager
+def _inside(home: Marked, identity: str) -> Iterator[Partial]:
+    with suppress(FileExistsError):
+        os.mkdir(identity, 0o700, dir_fd=home.handle)
+    handle = os.open(identity, os.O_RDONLY | os.O_DIRECTORY | os.O_NOFOLLOW, dir_fd=home.handle)
+    try:
+        yield Partial(handle)
+    finally:
+        os.close(handle)

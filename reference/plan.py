@@ -9,6 +9,7 @@ from __future__ import annotations
 import hashlib
 import json
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -121,7 +122,11 @@ class Layout:
 
 @dataclass(frozen=True)
 class Block:
-    """One unit of work: a stretch of one row of one problem."""
+    """One unit of work: a stretch of one row of one problem.
+
+    ``values`` are the numbers along the row's axis as they are stored, a view of the plan's; empty for a row that is
+    asked once.
+    """
 
     key: str
     layout: Layout
@@ -129,8 +134,15 @@ class Block:
     element: int
     row: Row
     start: int
-    arguments: tuple[Any, ...]
+    values: np.ndarray
     taylor_elements: int | None = None
+
+    @cached_property
+    def arguments(self) -> tuple[Any, ...]:
+        """The exact arguments of the row, or None once; made where the block is proven, as that takes its time."""
+        if self.row.over == "once":
+            return (None,)
+        return tuple(value if isinstance(value, int) else exact(value) for value in self.values.tolist())
 
     @property
     def problem(self) -> Problem:
@@ -140,7 +152,7 @@ class Block:
     def selection(self, variable: Component) -> tuple[Any, ...]:
         """Where the block lies in a variable: one index or slice a dimension."""
         lead = (self.element,) if self.layout.instances else ()
-        along = () if self.row.over == "once" else (slice(self.start, self.start + len(self.arguments)),)
+        along = () if self.row.over == "once" else (slice(self.start, self.start + len(self.values)),)
         return (*lead, *along)[: len(variable.dims)]
 
 
@@ -186,19 +198,18 @@ class Group:
         for element in range(self.inputs[first[0].name].size if first else 1):
             instance = {axis.name: self.inputs[axis.name][element].item() for axis in self.layout.instances}
             for row in self.layout.rows:
-                for start, arguments in self._stretches(row):
+                for start, values in self._stretches(row):
                     key = f"{self.layout.path} {element} {row.name} {start}"
                     inputs = {**instance, **self.parameters}
-                    yield Block(key, self.layout, inputs, element, row, start, arguments, self.taylor_elements)
+                    yield Block(key, self.layout, inputs, element, row, start, values, self.taylor_elements)
 
-    def _stretches(self, row: Row) -> Iterator[tuple[int, tuple[Any, ...]]]:
+    def _stretches(self, row: Row) -> Iterator[tuple[int, np.ndarray]]:
         if row.over == "once":
-            yield 0, (None,)
+            yield 0, np.empty(0)
             return
         values = self.inputs[self.layout.over[row.over].name]
         for start in range(0, values.size, BLOCK_LENGTH):
-            part = values[start : start + BLOCK_LENGTH].tolist()
-            yield start, tuple(value if isinstance(value, int) else exact(value) for value in part)
+            yield start, values[start : start + BLOCK_LENGTH]
 
 
 @dataclass(frozen=True)

@@ -194,3 +194,20 @@ def test_make_says_which_python_it_needs(tmp_path, python, said):
     assert done.returncode == 2
     assert said in done.stderr
     assert not (tmp_path / "venv").exists()
+
+
+def test_make_clean_removes_the_environment_that_it_set_up_and_no_other_folder(tmp_path):
+    (tmp_path / "Makefile").write_text(text_of(ROOT / "Makefile"))
+    names = ("ours", "my files", "files", "linked", "my")
+    for name in (*names, "reference", "compare", "tests"):
+        (tmp_path / name).mkdir()
+        (tmp_path / name / "notes").write_text("mine")
+    (tmp_path / "ours" / ".installed").touch()
+    (tmp_path / "linked" / ".installed").touch()
+    (tmp_path / "link").symlink_to("linked")
+    for name in ("my files", "link", "files/", ".."):
+        done = run(["make", "-C", str(tmp_path), "clean", f"VENV={name}"])
+        assert "was not set up by make; it stays." in done.stderr
+        assert all((tmp_path / kept / "notes").exists() for kept in names)
+    assert run(["make", "-C", str(tmp_path), "clean", "VENV=ours"]).returncode == 0
+    assert [name for name in names if not (tmp_path / name).exists()] == ["ours"]

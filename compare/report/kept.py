@@ -1,4 +1,4 @@
-"""Finished groups of an unfinished report, as files beside its folder, so that a long report can go on."""
+"""Finished groups of an unfinished report, kept beside its folder, so that a long report can go on."""
 
 from __future__ import annotations
 
@@ -11,9 +11,9 @@ from compare.report.records import WorkPoint
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
-    from pathlib import Path
 
     from compare.report.work import Task
+    from reference.partial import Partial
 
 __all__ = ["Kept"]
 
@@ -22,29 +22,21 @@ DIGEST = 64
 
 
 class Kept:
-    """The folder of the finished groups of one report."""
+    """The finished groups of one report, among the finished blocks beside it."""
 
-    def __init__(self, folder: Path) -> None:
-        self.folder = folder
+    def __init__(self, finished: Partial) -> None:
+        self._finished = finished
 
     def put(self, task: Task, points: Sequence[WorkPoint]) -> None:
         """Keep a finished group: it is there as a whole or not at all."""
         text = json.dumps([asdict(point) for point in points])
-        unfinished = self._path(task).with_suffix(".tmp")
-        unfinished.write_text(_digest(text) + text, encoding="utf-8")
-        unfinished.replace(self._path(task))
+        self._finished.put(task.key, f"{_digest(text)}{text}".encode())
 
     def get(self, task: Task) -> tuple[WorkPoint, ...] | None:
         """The finished group, or None where there is none or it is damaged."""
-        path = self._path(task)
-        if not path.exists():
-            return None
-        found = path.read_text(encoding="utf-8", errors="replace")
+        found = (self._finished.get(task.key) or b"").decode(errors="replace")
         digest, text = found[:DIGEST], found[DIGEST:]
-        return tuple(WorkPoint(**fields) for fields in json.loads(text)) if digest == _digest(text) else None
-
-    def _path(self, task: Task) -> Path:
-        return self.folder / f"{_digest(task.key)[:32]}.block"
+        return tuple(WorkPoint(**fields) for fields in json.loads(text)) if text and digest == _digest(text) else None
 
 
 def _digest(text: str) -> str:

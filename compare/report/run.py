@@ -56,7 +56,7 @@ class Plan:
     def identity(self) -> str:
         """A name that two plans share only if they ask for the same, of the same version."""
         text = "\n".join([__version__, hy.__version__, *(task.key for task in self.tasks)])
-        return hashlib.sha256(text.encode()).hexdigest()[:32]
+        return hashlib.sha256(text.encode()).hexdigest()
 
 
 def plan(
@@ -167,13 +167,13 @@ def run(
 
     Raises:
         BusyError, WorkerError: another run writes the same report; a worker process died.
-        OSError: the folder, or what is kept beside it, cannot be written.
+        OSError: the folder, or what is kept beside it, cannot be written, or was not made by a report.
         ValueError, ImportError: the executor is unknown, or its package is not installed.
     """
     target = Path(out).resolve()
     target.parent.mkdir(parents=True, exist_ok=True)
     with folder(out) as written, partial(target, wanted.identity) as unfinished:
-        kept = Kept(unfinished.folder)
+        kept = Kept(unfinished)
         found = dict(_results(wanted, kept, jobs, executor, progress or (lambda _done, _all: None)))
         report = _report(wanted, found, f"{jobs} at a time on the executor '{executor}'")
         from compare.report import page  # which takes a second to import

@@ -57,9 +57,7 @@ class Crew:
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
-        for future in self._flying:
-            future.cancel()
-        self._stack.close()
+        self._stack.__exit__(kind, error, trace)
 
     def points(self, chunk: Chunk) -> Callable[[], list[Point]]:
         """Judge every row of the next chunk; what is found may have to be waited for, in the order of the chunks.

@@ -136,22 +136,22 @@ def core() -> tuple[Group, ...]:
 
 
 def full() -> tuple[Group, ...]:
-    """The same groups with finer and larger grids."""
-    lowest = np.unique(np.concatenate([LOWEST, np.arange(1, 128) / 128]))
-    epsilon = np.arange(1, 65) / 64
-    ends = [(z, phi) for z in np.arange(1, 33) / 32 for phi in np.arange(1, 33) / 16]
+    """The same groups with finer and larger grids, as far as they are proven within hours on two cores."""
+    lowest = np.unique(np.concatenate([LOWEST, np.arange(1, 64) / 64]))
+    epsilon = np.arange(1, 17) / 16
+    ends = [(z, phi) for z in np.arange(1, 17) / 16 for phi in np.arange(1, 17) / 8]
     return (
         Group(
             FAMILY,
             {},
-            {"z0": lowest, "psi": np.arange(1601) / 512, "height": np.arange(1025) / 1024, "epsilon": epsilon},
+            {"z0": lowest, "psi": np.arange(805) / 256, "height": np.arange(513) / 512, "epsilon": epsilon},
         ),
         Group(MOTION, {}, {"z0": lowest, "tau": np.arange(3073) / 1024}),
         Group(BOUNDARY, {}, {"end_z": [end[0] for end in ends], "end_phi": [end[1] for end in ends]}),
         Group(
             TUNNEL_FAMILY,
             {},
-            {"z0": lowest, "psi": np.arange(1601) / 512, "height": np.arange(1025) / 1024, "epsilon": epsilon},
+            {"z0": lowest, "psi": np.arange(805) / 256, "height": np.arange(513) / 512, "epsilon": epsilon},
         ),
         Group(TUNNEL_MOTION, {}, {"z0": lowest, "tau": np.arange(3073) / 1024}),
     )

@@ -1,7 +1,8 @@
-"""Files that are whole or absent: atomic replacement, and the checksums beside them."""
+"""Files that are whole or absent: where a result may go, and atomic replacement."""
 
 from __future__ import annotations
 
+import fcntl
 import hashlib
 import os
 import re
@@ -17,31 +18,30 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
 __all__ = [
-    "CHECKSUMS",
-    "check_checksum",
-    "checksums",
     "destination",
-    "note_checksum",
     "regular_file",
     "replacing",
     "sha256",
+    "temporaries",
     "write_bytes",
 ]
 
-CHECKSUMS = "SHA256SUMS"
 PIECE = 1 << 20
-LINE = re.compile(r"([0-9a-f]{64}) [ *](.+)")
+TEMPORARY = ".tmp"
 
 
 def destination(path: str | os.PathLike[str]) -> Path:
     """Return the file that a result is to replace, links resolved.
 
     Raises:
-        FileNotFoundError, IsADirectoryError, OSError: its folder is missing, it is a folder, or it is no regular file.
+        FileNotFoundError, IsADirectoryError, OSError: its folder is missing, it is a folder, no regular file, or a link
+            that leads nowhere.
     """
     if not os.fspath(path):
         raise FileNotFoundError("the output path is empty; the name of a file is accepted.")
-    target = Path(os.path.realpath(path))
+    target = Path(os.path.realpath(os.fsdecode(path)))
+    if target.is_symlink():
+        raise OSError(f"'{path}' is a link that leads to itself; choose another output path.")
     if target.is_dir():
         raise IsADirectoryError(f"'{path}' is a folder; the name of a file is accepted.")
     if not target.parent.is_dir():
@@ -81,23 +81,64 @@ def regular_file(path: str | os.PathLike[str]) -> Path:
 def replacing(target: Path) -> Iterator[Path]:
     """Give a temporary path beside ``target`` that takes its place when the block ends without an error.
 
-    The old file or the new one is there at every moment; what an earlier run left of its own is cleared away.
+    The old file or the new one is there at every moment.  The temporary file is locked while it is written; what
+    killed runs left of their own, files of its form that nobody has locked, is cleared away.
     """
-    for orphan in target.parent.glob(f".{target.name}.*.tmp"):
-        orphan.unlink(missing_ok=True)
-    handle, name = tempfile.mkstemp(prefix=f".{target.name}.", suffix=".tmp", dir=target.parent)
-    temporary = Path(name)
+    _clear_orphans(target)
+    handle, temporary = _temporary(target)
     try:
         os.fchmod(handle, 0o644)
-        os.close(handle)
         yield temporary
-        _sync(temporary)
+        os.fsync(handle)
         temporary.replace(target)
         _sync(target.parent)
     except BaseException:
         with suppress(OSError):
             temporary.unlink(missing_ok=True)
         raise
+    finally:
+        os.close(handle)
+
+
+def _prefix(target: Path) -> str:
+    return f".horologium-{hashlib.sha256(os.fsencode(target.name)).hexdigest()[:8]}-"
+
+
+def _temporary(target: Path) -> tuple[int, Path]:
+    """A new file, open and locked."""
+    while True:
+        handle, name = tempfile.mkstemp(prefix=_prefix(target), suffix=TEMPORARY, dir=target.parent)
+        if _is_locked(handle, Path(name)):
+            return handle, Path(name)
+        os.close(handle)  # another run took it for an orphan before it was locked, and clears it away
+
+
+def temporaries(target: Path) -> list[str]:
+    """The names of the temporary files beside ``target`` that were made to take its place."""
+    form = re.compile(re.escape(_prefix(target)) + "[a-z0-9_]{8}" + re.escape(TEMPORARY))
+    return sorted(path.name for path in target.parent.iterdir() if form.fullmatch(path.name))
+
+
+def _clear_orphans(target: Path) -> None:
+    for path in [target.parent / name for name in temporaries(target)]:
+        with suppress(OSError):  # a link, or gone, or somebody else's
+            if not stat.S_ISREG(path.lstat().st_mode):
+                continue
+            handle = os.open(path, os.O_RDWR | os.O_NOFOLLOW | os.O_NONBLOCK)
+            try:
+                if _is_locked(handle, path):
+                    path.unlink()
+            finally:
+                os.close(handle)
+
+
+def _is_locked(handle: int, path: Path) -> bool:
+    """Lock an open file, where nobody has, and see that it still has its name."""
+    try:
+        fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        return os.path.samestat(path.lstat(), os.fstat(handle))
+    except (BlockingIOError, FileNotFoundError):
+        return False
 
 
 def _sync(path: Path) -> None:
@@ -121,52 +162,3 @@ def sha256(path: Path) -> str:
         while piece := file.read(PIECE):
             digest.update(piece)
     return digest.hexdigest()
-
-
-def checksums(folder: Path) -> dict[str, str]:
-    """The checksums noted in a folder, by file name.
-
-    Raises:
-        DatasetError: the list is damaged.
-    """
-    listing = folder / CHECKSUMS
-    if not listing.exists():
-        return {}
-    noted = {}
-    try:
-        lines = listing.read_text(encoding="utf-8").splitlines()
-    except (OSError, UnicodeDecodeError) as error:
-        raise DatasetError(f"'{listing}' cannot be read ({error}); restore it or remove it.") from None
-    for line in filter(None, lines):
-        match = LINE.fullmatch(line)
-        if match is None:
-            raise DatasetError(f"'{listing}' has a line that is no checksum; restore it or remove it.")
-        noted[match[2]] = match[1]
-    return noted
-
-
-def note_checksum(target: Path, digest: str | None) -> None:
-    """Write, or with None remove, the checksum of ``target`` in the list beside it, in the format of coreutils."""
-    noted = checksums(target.parent)
-    if noted.get(target.name) == digest:
-        return
-    noted.pop(target.name, None)
-    if digest is not None:
-        noted[target.name] = digest
-    listing = target.parent / CHECKSUMS
-    text = "".join(f"{noted[name]}  {name}\n" for name in sorted(noted))
-    if text:
-        write_bytes(listing, text.encode())
-    else:
-        listing.unlink(missing_ok=True)
-
-
-def check_checksum(path: Path) -> None:
-    """Compare a file with the checksum noted beside it, where one is.
-
-    Raises:
-        DatasetError: they differ, or the list is damaged.
-    """
-    noted = checksums(path.parent).get(path.name)
-    if noted is not None and sha256(path) != noted:
-        raise DatasetError(f"'{path}' differs from its checksum in {CHECKSUMS}: it is truncated or altered.")

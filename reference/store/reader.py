@@ -12,9 +12,10 @@ import h5py
 import numpy as np
 
 from reference.names import unknown
+from reference.store.checksums import check_checksum
 from reference.store.content import fingerprint, parameters_of, text_attribute
 from reference.store.errors import DatasetError
-from reference.store.files import check_checksum, regular_file
+from reference.store.files import regular_file
 from reference.store.inspection import SIGNATURE, inspect
 from reference.store.schema import LIMB, PROVENANCE, arrays
 

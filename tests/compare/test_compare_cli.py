@@ -5,6 +5,7 @@ from __future__ import annotations
 import errno
 import json
 import os
+import signal
 import subprocess
 import sys
 from pathlib import Path
@@ -183,15 +184,77 @@ def test_files_of_an_older_run_are_replaced_together_or_not_at_all(tmp_path):
     assert {path.name: path.read_text() for path in tmp_path.iterdir()} == {"one": "new", "two": "new"}
 
 
-def test_what_a_killed_run_left_behind_is_cleared(tmp_path):
-    ended = subprocess.Popen([sys.executable, "-c", ""])
-    ended.wait()
-    orphan, ours, another = (tmp_path / f".horologium-{pid}-abcd" for pid in (ended.pid, os.getpid(), "x"))
-    for folder in (orphan, ours, another):
-        folder.mkdir()
-    with output.folder(tmp_path / "new") as results:
-        results.write({"one": b"1"})
-    assert [path.exists() for path in (orphan, ours, another)] == [False, True, True]
+KILLED = """
+import os, sys
+from compare import output
+calls = iter(range(int(sys.argv[1]), -1, -1))
+def mortal(function):
+    def called(*args, **kwargs):
+        if next(calls) == 0:
+            os._exit(9)
+        return function(*args, **kwargs)
+    return called
+for name in ("mkdir", "open", "write", "fsync", "link", "replace", "rename", "unlink", "rmdir"):
+    setattr(os, name, mortal(getattr(os, name)))
+with output.folder(sys.argv[2]) as results:
+    results.write({"one": b"new one", "two": b"new two"})
+"""
+
+
+def test_a_run_that_is_killed_at_any_call_loses_no_file_and_is_cleared_away(tmp_path):
+    """At every moment each name has its old file or its new one, and others' folders of like names stay."""
+    (tmp_path / ".horologium-1-notes").mkdir()
+    (tmp_path / ".horologium-1-notes" / "mine").write_text("mine")
+    (tmp_path / ".horologium-01234567").mkdir()
+    (tmp_path / ".horologium-01234567" / "mine").write_text("mine")
+    others = sorted(path.name for path in tmp_path.iterdir())
+    for call in (7, 10, 14, 15, 16, 17, 18, 19, 20, 23, 32):
+        for name in ("one", "two"):
+            (tmp_path / name).write_text(f"old {name}")
+        command = [sys.executable, "-c", KILLED, str(call), str(tmp_path)]
+        ended = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
+        assert (ended.returncode, ended.stderr) in {(9, ""), (0, "")}
+        for name in ("one", "two"):
+            assert (tmp_path / name).read_text() in {f"old {name}", f"new {name}"}
+        with output.folder(tmp_path) as results:
+            results.write({"one": b"new one"})
+        left = [path for path in tmp_path.iterdir() if path.is_file() or any(path.iterdir())]  # or unmarked and empty
+        assert sorted(path.name for path in left) == sorted([*others, "one", "two"])
+        assert (tmp_path / ".horologium-1-notes" / "mine").read_text() == "mine"
+    assert ended.returncode == 0
+
+
+@pytest.mark.parametrize("kind", ["link", "link to nothing", "pipe"])
+def test_what_is_no_file_in_place_of_a_result_is_refused_and_stays(tmp_path, kind):
+    results_folder, place = tmp_path / "results", tmp_path / "results" / "two"
+    results_folder.mkdir()
+    (tmp_path / "theirs").write_text("theirs")
+    (results_folder / "one").write_text("old")
+    if kind == "pipe":
+        os.mkfifo(place)
+    else:
+        place.symlink_to(tmp_path / ("theirs" if kind == "link" else "nowhere"))
+    said = "two in it is a link" if "link" in kind else "two in it is something"
+    with pytest.raises(output.OutputError, match=said), output.folder(results_folder) as results:
+        results.write({"one": b"new", "two": b"new"})
+    assert (results_folder / "one").read_text() == "old"
+    assert place.is_symlink() == ("link" in kind)
+    assert (tmp_path / "theirs").read_text() == "theirs"
+    assert sorted(path.name for path in results_folder.iterdir()) == ["one", "two"]
+
+
+def test_an_interrupt_while_files_are_moved_waits_until_all_are(tmp_path, monkeypatch):
+    (tmp_path / "one").write_text("old")
+    replace = Path.replace
+
+    def interrupting(self, place):
+        os.kill(os.getpid(), signal.SIGINT)
+        return replace(self, place)
+
+    monkeypatch.setattr(Path, "replace", interrupting)
+    with pytest.raises(KeyboardInterrupt), output.folder(tmp_path) as results:
+        results.write({"one": b"new", "two": b"new"})
+    assert {path.name: path.read_text() for path in tmp_path.iterdir()} == {"one": "new", "two": "new"}
 
 
 def test_an_interrupt_leaves_nothing_behind_and_exits_130(tmp_path, monkeypatch):

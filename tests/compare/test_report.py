@@ -28,7 +28,7 @@ from compare.report.table import TABLES, sections
 from compare.report.work import Task, work
 from compare.scores import Course
 from reference import Descent, Pendulum
-from reference.partial import BusyError, partial
+from reference.partial import BusyError, PlaceError, partial
 
 SMALL = {
     "problems": ["pendulum"],
@@ -107,7 +107,9 @@ def test_an_interrupted_report_goes_on_where_it_stopped(tmp_path, monkeypatch):
     assert not out.exists()
     kept = tmp_path / "new" / "report.partial" / wanted.identity
     assert len(list(kept.glob("*.block"))) == 3
-    finished = {task: points for task in wanted.tasks if (points := Kept(kept).get(task)) is not None}
+    with suppress(KeyboardInterrupt), partial(out, wanted.identity) as unfinished:
+        finished = {task: points for task in wanted.tasks if (points := Kept(unfinished).get(task)) is not None}
+        raise KeyboardInterrupt
     next(kept.glob("*.block")).write_text("damaged")
 
     again, steps = [], []
@@ -124,7 +126,7 @@ def test_an_interrupted_report_goes_on_where_it_stopped(tmp_path, monkeypatch):
 def test_groups_of_another_report_are_not_used(tmp_path):
     wanted, other = plan(**SMALL), plan(**{**SMALL, "amplitudes": [1.0]})
     with suppress(KeyboardInterrupt), partial(tmp_path / "report", other.identity) as unfinished:
-        Kept(unfinished.folder).put(other.tasks[0], work(other.tasks[0]))
+        Kept(unfinished).put(other.tasks[0], work(other.tasks[0]))
         raise KeyboardInterrupt
     steps = []
     run(wanted, tmp_path / "report", progress=lambda done, _total: steps.append(done))
@@ -135,6 +137,19 @@ def test_two_reports_into_one_folder_do_not_mix(tmp_path):
     wanted = plan(**SMALL)
     with partial(tmp_path / "report", wanted.identity), pytest.raises(BusyError, match="report"):
         run(wanted, tmp_path / "report")
+
+
+@pytest.mark.parametrize("place", ["link", "folder"])
+def test_what_a_report_did_not_make_beside_its_folder_is_refused_and_untouched(tmp_path, place):
+    theirs = tmp_path / ("theirs" if place == "link" else "report.partial")
+    (theirs / ("a" * 64)).mkdir(parents=True)
+    (theirs / ("a" * 64) / ("b" * 32 + ".block")).write_text("theirs")
+    if place == "link":
+        (tmp_path / "report.partial").symlink_to(theirs, target_is_directory=True)
+    before = sorted(tmp_path.rglob("*"))
+    with pytest.raises(PlaceError, match=rf"report\.partial' is a {place} that this program did not make; move it"):
+        run(plan(**SMALL), tmp_path / "report")
+    assert sorted(tmp_path.rglob("*")) == before
 
 
 CURVES = {**SMALL, "problems": ["cycloid-curve", "descent", "polar-z", "polar-psi"], "amplitudes": None}

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import multiprocessing
 import os
 import sys
+import threading
+import time
 
 import pytest
 
@@ -57,3 +60,40 @@ def die(_task):
 def test_a_worker_that_dies_is_a_worker_error():
     with pytest.raises(WorkerError, match=r"^a worker process died .*\.$"), opened("process", 2) as pool:
         list(results(pool, die, [1], 2))
+
+
+def last(_task):
+    time.sleep(60)
+
+
+def test_processes_end_at_once_on_an_error_and_leave_no_traceback(monkeypatch):
+    """A future that is cancelled when a process dies would stop the pool's thread, and print a traceback."""
+    uncaught = []
+    monkeypatch.setattr(threading, "excepthook", uncaught.append)
+    begun = time.monotonic()
+    with pytest.raises(KeyboardInterrupt), opened("process", 2) as pool:  # noqa: PT012 (the block is what is tested)
+        answers = results(pool, last, range(20), 2)
+        pool.submit(abs, 1)
+        monkeypatch.setattr("reference.executors.wait", interrupted)
+        next(answers)
+    assert uncaught == []
+    assert time.monotonic() - begun < 50
+    assert not [process for process in multiprocessing.active_children() if process.is_alive()]
+
+
+def interrupted(*_args, **_kwargs):
+    raise KeyboardInterrupt
+
+
+def test_nobody_but_the_pool_cancels_what_its_processes_were_to_do(monkeypatch):
+    monkeypatch.setattr("reference.executors.wait", interrupted)
+    futures = []
+    with pytest.raises(KeyboardInterrupt), opened("process", 2) as pool:  # noqa: PT012 (the block is what is tested)
+        submit = pool.submit
+        monkeypatch.setattr(pool, "submit", lambda *task: futures.append(submit(*task)) or futures[-1])
+        try:
+            list(results(pool, last, range(20), 2))
+        finally:
+            assert len(futures) == 8
+            assert not any(future.cancelled() for future in futures)
+    assert all(future.done() for future in futures)

@@ -1,5 +1,7 @@
 """Grids of the user's own: a TOML file becomes a plan, or one sentence says why not."""
 
+import os
+
 import numpy as np
 import pytest
 
@@ -114,3 +116,23 @@ def test_a_file_that_cannot_be_read_is_refused(tmp_path, name, words):
 def test_config_and_profile_exclude_each_other(capsys):
     assert main(["build", "--profile", "full", "--config", "mine.toml"]) == 2
     assert "--config: not allowed with argument --profile" in capsys.readouterr().err
+
+
+def test_the_output_may_not_be_the_grid_file(tmp_path, capsys):
+    path = tmp_path / "mine.toml"
+    path.write_text(GOOD)
+    link = tmp_path / "x.h5"
+    link.symlink_to(path)
+    for out in (path, link):
+        assert main(["build", "--config", str(path), "--out", str(out)]) == 2
+        assert "is the grid file itself; choose another output path.\n" in capsys.readouterr().err
+    assert path.read_text() == GOOD
+
+
+@pytest.mark.parametrize("name", [os.fsdecode(b"\xff.toml"), "a\nb.toml", "\x1b[1m.toml"])
+def test_a_name_that_cannot_be_stored_is_told_before_the_proof(tmp_path, capsys, name):
+    path = tmp_path / name
+    path.write_text(GOOD)
+    assert main(["build", "--config", str(path), "--out", str(tmp_path / "x.h5")]) == 2
+    assert "a name of printable letters is accepted.\n" in capsys.readouterr().err
+    assert [found.name for found in tmp_path.iterdir()] == [name]

@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 
 from reference.store import DatasetError, load
-from reference.store.files import note_checksum, sha256
+from reference.store.checksums import note_checksum
+from reference.store.files import sha256
 
 
 def refused(path, *words):

@@ -187,15 +187,21 @@ def test_a_command_runs_in_any_thread():
     assert codes == [0]
 
 
-def terminated(command, folder, until):
-    """Start a command in a folder, send the signal once something that it makes is there; its exit code and stderr."""
+def terminated(command, folder, until, group=None):
+    """Start a command in a folder, send the signal once something that it makes is there; its exit code and stderr.
+
+    With ``group`` it is this signal, sent to all of its processes, as a terminal or a time limit does.
+    """
     command = [sys.executable, "-m", *command]
-    streams = {"stderr": subprocess.PIPE, "stdout": subprocess.DEVNULL}
+    streams = {"stderr": subprocess.PIPE, "stdout": subprocess.DEVNULL, "start_new_session": True}
     with subprocess.Popen(command, cwd=folder, env=ENVIRONMENT, **streams) as process:
         limit = time.monotonic() + 60
         while not until() and time.monotonic() < limit and process.poll() is None:
             time.sleep(0.02)
-        process.send_signal(signal.SIGTERM)
+        if group is None:
+            process.send_signal(signal.SIGTERM)
+        else:
+            os.killpg(process.pid, group)
         return process.wait(60), process.stderr.read()
 
 
@@ -212,3 +218,17 @@ def test_a_build_that_is_terminated_leaves_its_finished_blocks_and_no_temporary_
     assert (code, errors) == (143, b"terminated.\n")
     assert [path.name for path in tmp_path.rglob("*") if path.suffix == ".tmp"] == []
     assert [path.name for path in tmp_path.iterdir()] == ["x.h5.partial"]
+
+
+@pytest.mark.parametrize(
+    ("number", "made", "found"),
+    [
+        (signal.SIGINT, "x.h5.partial", (130, b"interrupted.\n")),
+        (signal.SIGTERM, "x.h5.partial/*/*.block", (143, b"terminated.\n")),
+    ],
+)
+def test_a_build_whose_processes_are_all_signalled_says_one_line(tmp_path, number, made, found):
+    """While they begin, and while they prove; a traceback of the pool's thread or of a process stood beside it."""
+    words = ["reference", "build", "--out", "x.h5", "--jobs", "2"]
+    assert terminated(words, tmp_path, lambda: any(tmp_path.glob(made)), number) == found
+    assert [path.name for path in tmp_path.iterdir()] in ([], ["x.h5.partial"])
