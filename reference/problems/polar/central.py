@@ -13,7 +13,7 @@ from flint import ctx
 from mpmath import mp
 
 from reference.arithmetic import BALL, MPMATH
-from reference.exact import as_number, exact, rational_root
+from reference.exact import as_number, exact, exact_array, rational_root
 from reference.names import said
 from reference.problem import Problem, Row
 from reference.problems.polar.bodies import BODIES
@@ -80,10 +80,8 @@ class CentralBrachistochrone(Problem):
         lowest = None if z0 is None else exact(z0, "z0")
         if lowest is not None and not 0 < lowest < 1:
             raise ValueError(f"z0 is {as_number(lowest)}; a lowest point with 0 < z0 < 1 is accepted.")
-        if end is not None and (isinstance(end, str) or not hasattr(end, "__len__") or len(end) != 2):
-            raise ValueError(f"end is {said(end)}; a pair (R, PHI) is accepted.")
         object.__setattr__(self, "z0", lowest)
-        object.__setattr__(self, "end", None if end is None else tuple(exact(value, "end") for value in end))
+        object.__setattr__(self, "end", None if end is None else _pair(end))
         _ = self.goal
 
     def _set_positive(self, name: str, value: Any) -> None:
@@ -258,6 +256,19 @@ class CentralBrachistochrone(Problem):
             return _bits(z0) // 2 + 2 * _bits(1 - z0)
         radius, angle = self.end
         return _bits(radius) + _bits(angle) + _bits(self.field.sweep * PI - angle)
+
+
+def _pair(end: Any) -> tuple[Fraction, Fraction]:
+    """The exact radius and angle of an end.
+
+    Raises:
+        ValueError: it is no pair of numbers.
+        TypeError: it holds what is no number.
+    """
+    numbers, shape = ([], ()) if isinstance(end, str) else exact_array(end, "end")
+    if shape != (2,):
+        raise ValueError(f"end is {said(end)}; a pair (R, PHI) is accepted.")
+    return numbers[0], numbers[1]
 
 
 def _bits(part: Fraction) -> int:
