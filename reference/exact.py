@@ -138,18 +138,19 @@ def positive(value: Any, name: str, most: int | None = None) -> int:
     Raises:
         ValueError: it is not a positive integer, or more than ``most``.
     """
-    if most is None:
-        return _integer(value, name, 1, None, "a positive integer")
-    return _integer(value, name, 1, most, f"an integer from 1 to {most}")
+    count = _integer(value, name, 1, None, "a positive integer")
+    if most is not None and count > most:
+        raise ValueError(f"{name} is {said(count)}; at most {most} are accepted.")
+    return count
 
 
-def counted(value: Any, name: str, most: int, what: str = "") -> int:
-    """Return a number from 0 to ``most`` as an int; ``what`` says what it counts.
+def counted(value: Any, name: str, most: int, what: str = "", least: int = 0) -> int:
+    """Return a number from ``least`` to ``most`` as an int; ``what`` says what it counts.
 
     Raises:
         ValueError: it is no such integer.
     """
-    return _integer(value, name, 0, most, f"an integer from 0 to {most}{what}")
+    return _integer(value, name, least, most, f"an integer from {least} to {most}{what}")
 
 
 def _integer(value: Any, name: str, least: int, most: int | None, accepted: str) -> int:

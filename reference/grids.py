@@ -101,10 +101,10 @@ def _number(name: str, value: Any) -> float:
     number = exact(value, name)
     if isinstance(value, str) and "/" in value:
         raise ValueError(f"{name} is '{short(value)}', a fraction; a stored input is a binary64 number, as a decimal.")
-    return _stored(name, number)
+    return _stored(name, number, str(value))
 
 
-def _stored(name: str, number: Fraction) -> float:
+def _stored(name: str, number: Fraction, told: str) -> float:
     """The binary64 number nearest to this one.
 
     Raises:
@@ -113,8 +113,7 @@ def _stored(name: str, number: Fraction) -> float:
     try:
         return float(number) + 0.0
     except OverflowError:
-        size = f"10^{len(str(abs(number.numerator) // number.denominator)) - 1}"
-        raise ValueError(f"{name} is about {size}, which is beyond the range of binary64.") from None
+        raise ValueError(f"{name} is {short(told)}, which is beyond the range of binary64.") from None
 
 
 def _numbers(where: str, asked: Coordinate, value: Any) -> list[Any]:
@@ -132,7 +131,7 @@ def _labels(name: str, asked: Coordinate, value: Any) -> list[int]:
     labels = [asked.meanings.index(label) if label in asked.meanings else label for label in listed]
     for label in labels:
         whole = isinstance(label, int) and not isinstance(label, bool)
-        if asked.meanings and not (whole and label in range(len(asked.meanings))):
+        if isinstance(label, str) or (asked.meanings and not (whole and label in range(len(asked.meanings)))):
             raise ValueError(unknown(name, str(label), asked.meanings))
         if not whole or not 0 <= label <= MAX_LABEL:
             raise ValueError(f"{name} is {said(label)}; an integer from 0 to {MAX_LABEL} is accepted.")
@@ -145,7 +144,7 @@ def _range(name: str, value: dict[str, Any]) -> list[float]:
     count = _count(name, value["count"])
     start, stop = (exact(value[end], f"{name}, its {end}") for end in ("start", "stop"))
     step = (stop - start) / max(1, count - 1)
-    return [_stored(name, start + k * step) for k in range(count)]
+    return [_stored(name, start + k * step, f"from {value['start']} to {value['stop']}") for k in range(count)]
 
 
 def _count(name: str, value: Any) -> int:

@@ -72,7 +72,7 @@ def test_the_published_facts(capsys):
     assert float(steep["half_angle"]) == pytest.approx(math.pi / 3, rel=1e-11)
     assert float(steep["descent_time"]) == pytest.approx(math.pi / 2, rel=1e-15)
     fall = answer(capsys, "polar", "--z0 1e-12 --r0 6.371e6 --body earth")["descent_seconds"]
-    unit = math.sqrt(6.371e6**3 / (2 * 6.6743e-11 * 5.9722e24))
+    unit = math.sqrt(6.371e6**3 / (2 * 3.986004e14))
     assert float(fall) == pytest.approx(math.pi / 2 * unit, rel=1e-14)
 
 

@@ -22,7 +22,7 @@ from __future__ import annotations
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from reference.exact import positive
+from reference.exact import counted
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -58,7 +58,7 @@ def surface_coefficients(order: int) -> tuple[Fraction, ...]:
 
 
 def _checked(order: Any) -> int:
-    return positive(order, "order", MAX_ORDER)
+    return counted(order, "order", MAX_ORDER, least=1)
 
 
 def shallow(m: Any, kappa: Any, order: int) -> Limit:
