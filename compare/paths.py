@@ -7,11 +7,12 @@ apart as they start.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, ClassVar
 
+from reference.domain import Reals
 from reference.exact import as_number, exact
 from reference.problem import APART, ClosedForm, Problem, Quantity, Row
 from reference.problems.cycloid.arc import CycloidArc
@@ -22,10 +23,13 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
     from reference.arithmetic import Arithmetic
+    from reference.domain import Domain
 
 __all__ = ["CycloidCurve", "PolarByPsi", "PolarByZ"]
 
 ZERO, ONE = Fraction(0), Fraction(1)
+DEPTH = Reals("depth", "depth", ZERO)
+"""To the lowest point of each path."""
 PHI = Quantity("phi", "rad", "angle swept since the release", "dphi/dpsi = z0^(3/2) (1 - z)/(z sqrt(Q))")
 
 
@@ -85,13 +89,8 @@ class PolarCurve(Problem):
         return self.polar.working_bits(arguments)
 
     def exact_row(self, row: str, argument: Any) -> tuple[Fraction | None, ...] | None:
-        """The start, and the independent variable itself.
-
-        Raises:
-            ValueError: it is beyond the end of the curve.
-        """
+        """The start, and the independent variable itself."""
         del row
-        self.polar.exact_row(self.row_of_polar, self.argument(argument))
         return self.start if argument == 0 else (*(None,) * (len(self.state_names) - 1), argument)
 
     def closed_form(self, m: Any) -> ClosedForm:
@@ -130,7 +129,7 @@ class PolarByZ(PolarCurve):
 
     name: ClassVar[str] = "polar curve in z"
     rows: ClassVar[tuple[Row, ...]] = (
-        Row("state", (PHI, Quantity("depth", "1", "depth below the release", "1 - z")), "depth"),
+        Row("state", (PHI, Quantity("depth", "1", "depth below the release", "1 - z")), DEPTH),
     )
     state_names: ClassVar[tuple[str, ...]] = ("phi", "depth")
     row_of_polar: ClassVar[str] = "by_z"
@@ -142,6 +141,10 @@ class PolarByZ(PolarCurve):
         z = 1 - depth
         bend = depth / ((z - z0) * POINT_MASS.quadratic(z0, z))
         return z0 * m.sqrt(z0) / z * m.sqrt(bend), m.number(ONE)
+
+    def domain(self, row: Row) -> Domain:
+        """Depths end at the lowest point, 1 - z0."""
+        return replace(DEPTH, high=1 - self.z0) if row.domain is DEPTH else row.domain
 
     def argument(self, along: Fraction) -> Fraction:
         return 1 - along
@@ -163,7 +166,7 @@ class PolarByPsi(PolarCurve):
                 Quantity("tau", "1", "time since the release", "dtau/dpsi = z^2 sqrt((1 - z0)/Q)"),
                 Quantity("psi", "rad", "parameter of the curve", "psi"),
             ),
-            "psi",
+            Reals("psi", "psi"),
         ),
     )
     state_names: ClassVar[tuple[str, ...]] = ("phi", "tau", "psi")

@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
     from reference.certify import Certified
+    from reference.constants import Constant
     from reference.problem import Problem
 
 __all__ = [
@@ -154,8 +155,13 @@ def _require_single(family: Family, found: list[Certified]) -> None:
 
 
 def as_json(found: list[Certified], digits: int, *, routes: bool) -> str:
-    """One object: name to decimal string; with ``routes`` also "routes", name to digits agreed by each."""
+    """One object: name to decimal string; with ``routes`` also "routes", name to digits agreed by each.
+
+    Where the values are by a constant of nature, "constants" holds its value, units and source.
+    """
     answer: dict[str, object] = {value.quantity.name: value.digits(digits) for value in found}
+    if constants := _constants(found):
+        answer["constants"] = {constant.name: constant.as_json() for constant in constants}
     if routes:
         answer["routes"] = {value.quantity.name: _agreed(value) for value in found}
     return json.dumps(answer, indent=2)
@@ -166,6 +172,9 @@ def as_text(family: Family, inputs: Mapping[str, Any], found: list[Certified], d
     units = {asked.name: asked.units for asked in family.inputs}
     lines = [f"{family.name}: {family.help}", "inputs, exact:"]
     lines += [f"  {name} = {_shown(value)} {units[name]}".rstrip() for name, value in inputs.items()]
+    if constants := _constants(found):
+        lines.append("constants, exact:")
+        lines += [f"  {constant}" for constant in constants]
     lines.append(f"values, {digits} significant digits, every one proven:")
     for value in found:
         unit = "" if value.quantity.units == "1" else f" {value.quantity.units}"
@@ -174,6 +183,11 @@ def as_text(family: Family, inputs: Mapping[str, Any], found: list[Certified], d
             agreed = ", ".join(f"{route} {count:.1f} digits" for route, count in _agreed(value).items())
             lines.append(f"    agreed by {agreed}")
     return "\n".join(lines)
+
+
+def _constants(found: list[Certified]) -> tuple[Constant, ...]:
+    """The constants of nature that the problem's parameters come from."""
+    return found[0].problem.constants if found else ()
 
 
 def _agreed(value: Certified) -> dict[str, float]:

@@ -16,8 +16,8 @@ from typing import TYPE_CHECKING, Any
 from flint import arb, ctx
 
 from reference.arithmetic import BALL
-from reference.exact import positive, spelled
-from reference.limbs import decimal, exact_decimal, interval, to_fixed, to_limbs
+from reference.exact import counted, positive, spelled
+from reference.limbs import MAX_DIGITS, MAX_LIMBS, decimal, exact_decimal, interval, to_fixed, to_limbs
 from reference.routes import enclosure
 
 if TYPE_CHECKING:
@@ -88,18 +88,30 @@ def _digits(pairs: Sequence[tuple[arb, Fraction]]) -> list[float]:
 def _shown(row: Row, argument: Any) -> str:
     if argument is None:
         return "the given parameters"
-    name = "t" if row.over == "time" else row.over
-    return f"{name} = {spelled(argument)}" if isinstance(argument, Fraction) else f"index {argument}"
+    return f"{row.domain.name} = {spelled(argument)}" if isinstance(argument, Fraction) else f"index {argument}"
 
 
 @dataclass(frozen=True)
 class Certified:
-    """A proven real number: as a float, as limbs, and to any number of decimal digits, each correctly rounded."""
+    """A proven real number: as a float, as limbs, and to any number of decimal digits, each correctly rounded.
+
+    Raises:
+        KeyError: the problem has no such row.
+        ValueError: the argument is outside of the row's domain, or the row has no such component.
+        TypeError: the argument is no real number.
+    """
 
     problem: Problem
     row: str
     argument: Any = None
     component: int = 0
+
+    def __post_init__(self) -> None:
+        (argument,) = self.problem.arguments(self.row, [self.argument])
+        names = [quantity.name for quantity in self.problem.row(self.row).quantities]
+        component = counted(self.component, "component", len(names) - 1, f" ({', '.join(names)})")
+        object.__setattr__(self, "argument", argument)
+        object.__setattr__(self, "component", component)
 
     @property
     def quantity(self) -> Quantity:
@@ -114,10 +126,10 @@ class Certified:
         """The correctly rounded double and the ``count`` - 1 limbs of its tail.
 
         Raises:
-            ValueError: ``count`` is not a positive integer.
+            ValueError: ``count`` is not an integer from 1 to MAX_LIMBS.
             WorkBoundError: a limb could not be decided within the bound on the working precision.
         """
-        count = positive(count, "limbs")
+        count = positive(count, "limbs", MAX_LIMBS)
         return self._decide(*to_limbs(count), 53 * count)  # type: ignore[no-any-return]
 
     @cached_property
@@ -136,10 +148,10 @@ class Certified:
         """The decimal of ``count`` significant digits, correctly rounded.
 
         Raises:
-            ValueError: ``count`` is not a positive integer.
+            ValueError: ``count`` is not an integer from 1 to MAX_DIGITS.
             WorkBoundError: the digits could not be decided within the bound on the working precision.
         """
-        count = positive(count, "digits")
+        count = positive(count, "digits", MAX_DIGITS)
         return self._decide(  # type: ignore[no-any-return]
             lambda ball: decimal(interval(ball), count),
             lambda value: exact_decimal(value, count),
@@ -150,8 +162,10 @@ class Certified:
         """The decimal of ``places`` decimal places, correctly rounded.
 
         Raises:
+            ValueError: ``places`` is not an integer from 0 to MAX_DIGITS.
             WorkBoundError: the digits could not be decided within the bound on the working precision.
         """
+        places = counted(places, "places", MAX_DIGITS)
         bits = math.ceil(places * math.log2(10)) + 64  # more where the number is large: the proof doubles them
         return self._decide(*to_fixed(places), bits)  # type: ignore[no-any-return]
 

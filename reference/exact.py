@@ -16,9 +16,9 @@ from typing import Any
 
 import numpy as np
 
-from reference.names import short
+from reference.names import said, short
 
-__all__ = ["as_number", "exact", "exact_array", "expansion", "positive", "spelled"]
+__all__ = ["as_number", "counted", "exact", "exact_array", "expansion", "positive", "rational_root", "spelled"]
 
 ACCEPTED = "a finite number, a decimal string such as '9.81', or a Fraction is accepted"
 ROWS_ACCEPTED = "an array with rows of one length is accepted"
@@ -27,6 +27,8 @@ NUMBER_KINDS = "fiuOU"
 """NumPy kinds of arrays whose elements can be numbers: floats, integers, objects and strings."""
 NO_SEQUENCES = (bytes, bytearray, memoryview, Mapping, Set)
 """What can be iterated over, but is not a sequence of numbers, or has no order."""
+MAX_DEPTH = 32
+"""Axes that an array may have."""
 MAX_DIGITS = 4000
 """Digits that the numerator or the denominator of an input may have, so that every input can be printed exactly."""
 
@@ -47,8 +49,11 @@ def exact(value: Any, name: str = "value") -> Fraction:
 
 
 def _exact(value: Any, name: str) -> Fraction:
+    if type(value) is Fraction:
+        return value
     if isinstance(value, str):
         return _spelled_number(value, name)
+    _refuse_masked(value, name)
     if isinstance(value, (bool, np.bool_, complex, np.complexfloating, np.timedelta64)):
         raise TypeError(f"{name} is {value!r}, which is not a real number; {ACCEPTED}.")
     if isinstance(value, (Rational, np.integer)):
@@ -62,6 +67,12 @@ def _exact(value: Any, name: str) -> Fraction:
             raise ValueError(f"{name} is {value}, which is not finite; {ACCEPTED}.")
         return Fraction(*(int(part) for part in value.as_integer_ratio()))
     raise TypeError(f"{name} is of type {type(value).__name__}; {ACCEPTED}.")
+
+
+def _refuse_masked(values: Any, name: str) -> None:
+    """A masked element is no number."""
+    if isinstance(values, np.ma.MaskedArray):
+        raise TypeError(f"{name} is a masked array, whose elements need not be numbers; {ACCEPTED}.")
 
 
 def _spelled_number(text: str, name: str) -> Fraction:
@@ -102,13 +113,16 @@ def exact_array(values: Any, name: str = "value") -> tuple[list[Fraction], tuple
     return [exact(value, name) for value in elements], array.shape
 
 
-def _refuse_no_sequence(values: Any, name: str) -> None:
-    """NumPy would take bytes, inside lists too, for numbers."""
+def _refuse_no_sequence(values: Any, name: str, depth: int = 0) -> None:
+    """NumPy would take bytes, inside lists too, for numbers, and what is masked for what is under the mask."""
+    _refuse_masked(values, name)
     if isinstance(values, NO_SEQUENCES):
         raise TypeError(f"{name} is of type {type(values).__name__}; {ACCEPTED}.")
     if isinstance(values, (list, tuple)):
+        if depth == MAX_DEPTH:
+            raise ValueError(f"{name} is nested more than {MAX_DEPTH} deep; an array with fewer axes is accepted.")
         for value in values:
-            _refuse_no_sequence(value, name)
+            _refuse_no_sequence(value, name, depth + 1)
 
 
 def _listed(values: Any) -> Any:
@@ -118,19 +132,43 @@ def _listed(values: Any) -> Any:
     return values
 
 
-def positive(value: Any, name: str) -> int:
+def positive(value: Any, name: str, most: int | None = None) -> int:
     """Return a count as an int; NumPy's integers are counts, truth values are not.
 
     Raises:
-        ValueError: it is not a positive integer.
+        ValueError: it is not a positive integer, or more than ``most``.
     """
-    try:
-        count = 0 if isinstance(value, (bool, np.bool_)) else operator.index(value)
-    except TypeError:
-        count = 0
-    if count < 1:
-        raise ValueError(f"{name} is {value!r}; a positive integer is accepted.")
+    count = _integer(value, name, 1, None, "a positive integer")
+    if most is not None and count > most:
+        raise ValueError(f"{name} is {said(count)}; at most {most} are accepted.")
     return count
+
+
+def counted(value: Any, name: str, most: int, what: str = "", least: int = 0) -> int:
+    """Return a number from ``least`` to ``most`` as an int; ``what`` says what it counts.
+
+    Raises:
+        ValueError: it is no such integer.
+    """
+    return _integer(value, name, least, most, f"an integer from {least} to {most}{what}")
+
+
+def _integer(value: Any, name: str, least: int, most: int | None, accepted: str) -> int:
+    try:
+        count = least - 1 if isinstance(value, (bool, np.bool_)) else operator.index(value)
+    except TypeError:
+        count = least - 1
+    if count < least or (most is not None and count > most):
+        raise ValueError(f"{name} is {said(value)}; {accepted} is accepted.")
+    return count
+
+
+def rational_root(square: Fraction) -> Fraction | None:
+    """The square root of a rational, where it is rational."""
+    if square < 0:
+        return None
+    root = Fraction(math.isqrt(square.numerator), math.isqrt(square.denominator))
+    return root if root * root == square else None
 
 
 def as_number(value: Fraction) -> float | str:

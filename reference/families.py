@@ -9,6 +9,7 @@ from reference.problems.cycloid import Cycloid, Tautochrone
 from reference.problems.descent import RACE, Descent
 from reference.problems.pendulum import LinearPendulum, Pendulum
 from reference.problems.polar import PolarBrachistochrone
+from reference.problems.polar.bodies import BODIES
 from reference.problems.tunnel import Tunnel
 
 if TYPE_CHECKING:
@@ -60,7 +61,7 @@ def in_a_field(strength: Input, unit: str) -> tuple[Input, ...]:
         Input("end", "", "end point R,PHI: its radius over r0 and its angle in rad", optional=True, read=pair),
         Input("r0", "m", "radius of the release", optional=True),
         strength,
-        Input("body", "", f"instead of {strength.name} a body: earth", optional=True, read=text),
+        Input("body", "", f"instead of {strength.name} a body: {' or '.join(BODIES)}", optional=True, read=text),
         Input("tau", "1", f"time in units of {unit}", optional=True, over="tau"),
         Input("psi", "rad", "parameter of the curve, pi at the lowest point", optional=True, over="psi"),
         Input("z", "1", "height on the way down", optional=True, over="z"),

@@ -15,19 +15,21 @@ SPEC = re.compile(
     r"(?P<group>[,_]?)\.(?P<precision>\d+)(?P<type>[eEfFgG])",
     re.DOTALL,
 )
+SIGNED = re.compile(r"((?:.?[<>=^])?[-+ ]?)", re.DOTALL)
+"""What stands before the "z" that takes the sign of a zero away."""
 SMALLEST_PLAIN = -4
 """The least decimal exponent that "g" writes without an exponent."""
 
 
 def formatted(value: Certified, spec: str) -> str:
-    """The number as ``format(float(value), spec)`` would lay it out.
+    """The number as ``format(float(value), spec)`` would lay it out, but for zeros, which have no sign.
 
     For "e", "f" and "g" with a precision the digits are the correctly rounded ones of the number itself, however many;
     anything else formats the nearest double.
     """
     asked = SPEC.fullmatch(spec)
     if asked is None or (asked["group"] and (asked["zero"] or asked["align"] == "=")):
-        return format(float(value), spec)
+        return format(float(value), spec if "z" in spec else SIGNED.sub(r"\1z", spec, count=1))
     precision, kind = int(asked["precision"]), asked["type"].lower()
     text = {"e": _scientific, "f": _fixed, "g": _general}[kind](value, precision)
     body = text.removeprefix("-")

@@ -23,16 +23,19 @@ from typing import TYPE_CHECKING, Any
 
 from reference.catalogue import LAYOUTS
 from reference.exact import exact
-from reference.names import short, unknown
+from reference.names import said, short, unknown
 from reference.plan import Group, Plan
 
 if TYPE_CHECKING:
+    from fractions import Fraction
+
     from reference.plan import Coordinate
 
 __all__ = ["MAX_NUMBERS", "plan_from"]
 
 MAX_NUMBERS = 10_000_000
 """Numbers on one axis."""
+MAX_LABEL = 2**31 - 1
 SUFFIX = ".toml"
 RANGE = ("start", "stop", "count")
 BESIDES = ("path", "taylor_elements")
@@ -44,7 +47,10 @@ def plan_from(path: str) -> Plan:
     Raises:
         ValueError: the file is not there, is not named or written as TOML, or a group, parameter or input in it is
             missing, unknown, twice there or not acceptable.
+        TypeError: ``path`` is no text.
     """
+    if not isinstance(path, str):
+        raise TypeError(f"the grid file is of type {type(path).__name__}; its name as text is accepted.")
     if not Path(path).name.isprintable():
         raise ValueError(f"the grid file is {short(path)!a}; a name of printable letters is accepted.")
     if not path.endswith(SUFFIX):
@@ -87,18 +93,29 @@ def _group(table: dict[str, Any]) -> Group:
     bound = _count(f"{where}taylor_elements", table["taylor_elements"]) if "taylor_elements" in table else None
     group = Group(layout, parameters, inputs, bound)
     for block in group.blocks():
-        _ = block.problem  # says what is wrong with its inputs
+        block.check()
     return group
 
 
 def _number(name: str, value: Any) -> float:
     if isinstance(value, bool) or not isinstance(value, (int, str)):
-        raise ValueError(f"{name} is {value!r}; a number is accepted.")  # noqa: TRY004 (the file has a wrong value)
+        raise ValueError(f"{name} is {said(value)}; a number is accepted.")  # noqa: TRY004 (the file has a wrong value)
+    number = exact(value, name)
+    if isinstance(value, str) and "/" in value:
+        raise ValueError(f"{name} is '{short(value)}', a fraction; a stored input is a binary64 number, as a decimal.")
+    return _stored(name, number, str(value))
+
+
+def _stored(name: str, number: Fraction, told: str) -> float:
+    """The binary64 number nearest to this one.
+
+    Raises:
+        ValueError: there is none.
+    """
     try:
-        return float(exact(float(value), name))
-    except (ValueError, OverflowError):
-        _ = exact(value, name)
-        raise ValueError(f"{name} is {short(str(value))}, which is beyond the range of binary64.") from None
+        return float(number) + 0.0
+    except OverflowError:
+        raise ValueError(f"{name} is {short(told)}, which is beyond the range of binary64.") from None
 
 
 def _numbers(where: str, asked: Coordinate, value: Any) -> list[Any]:
@@ -115,8 +132,11 @@ def _labels(name: str, asked: Coordinate, value: Any) -> list[int]:
     listed = value if isinstance(value, list) else list(range(_count(name, value)))
     labels = [asked.meanings.index(label) if label in asked.meanings else label for label in listed]
     for label in labels:
-        if isinstance(label, str) or (asked.meanings and label not in range(len(asked.meanings))):
+        whole = isinstance(label, int) and not isinstance(label, bool)
+        if isinstance(label, str) or (asked.meanings and not (whole and label in range(len(asked.meanings)))):
             raise ValueError(unknown(name, str(label), asked.meanings))
+        if not whole or not 0 <= label <= MAX_LABEL:
+            raise ValueError(f"{name} is {said(label)}; an integer from 0 to {MAX_LABEL} is accepted.")
     return labels
 
 
@@ -126,10 +146,10 @@ def _range(name: str, value: dict[str, Any]) -> list[float]:
     count = _count(name, value["count"])
     start, stop = (exact(value[end], f"{name}, its {end}") for end in ("start", "stop"))
     step = (stop - start) / max(1, count - 1)
-    return [float(start + k * step) for k in range(count)]
+    return [_stored(name, start + k * step, f"from {value['start']} to {value['stop']}") for k in range(count)]
 
 
 def _count(name: str, value: Any) -> int:
     if isinstance(value, bool) or not isinstance(value, int) or not 1 <= value <= MAX_NUMBERS:
-        raise ValueError(f"{name} has the count {value!r}; an integer from 1 to {MAX_NUMBERS} is accepted.")
+        raise ValueError(f"{name} has the count {said(value)}; an integer from 1 to {MAX_NUMBERS} is accepted.")
     return value

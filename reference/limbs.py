@@ -18,6 +18,8 @@ if TYPE_CHECKING:
 
 __all__ = [
     "MAX_BITS",
+    "MAX_DIGITS",
+    "MAX_LIMBS",
     "Interval",
     "WorkBoundError",
     "decimal",
@@ -39,6 +41,9 @@ DECIMAL_EXPONENT = 1 << 20
 """Numbers beyond 2^this, about 10^315653, or below its reciprocal have no decimals: they would take minutes."""
 MAX_BITS = 1 << 17
 """Working precision at which a proof is given up, with an error."""
+MAX_LIMBS = MAX_BITS // BINARY64_BITS
+MAX_DIGITS = int(MAX_BITS / math.log2(10))
+"""Limbs, and decimal digits, that this leaves room for."""
 
 Interval = tuple[int, int, int]
 """(a, b, e): the closed interval [a 2^e, b 2^e]."""
@@ -145,7 +150,7 @@ def of_ball(ball: arb, count: int) -> Limbs | None:
 
 
 def exact_limbs(value: Fraction, count: int) -> tuple[float, ...]:
-    """Return the limbs of an exact rational.
+    """Return the limbs of an exact rational; zero is +0.0, also where a negative number underflows to it.
 
     Raises:
         OverflowError: the value is beyond the range of binary64.
@@ -153,7 +158,7 @@ def exact_limbs(value: Fraction, count: int) -> tuple[float, ...]:
     found: list[float] = []
     for _ in range(count):
         try:
-            found.append(float(value))
+            found.append(float(value) + 0.0)
         except OverflowError:
             raise _beyond_range() from None
         value -= Fraction(found[-1])
@@ -200,10 +205,11 @@ def exact_decimal(value: Fraction, digits: int) -> str:
 
 
 def fixed(value: Fraction, places: int) -> str:
-    """Return an exact rational rounded to ``places`` decimal places (nearest, ties to even), with its sign."""
-    scaled = f"{Decimal(abs(round(value * 10**places))):f}".zfill(places + 1)
+    """Return an exact rational rounded to ``places`` decimal places (nearest, ties to even); zero has no sign."""
+    rounded_value = round(value * 10**places)
+    scaled = f"{Decimal(abs(rounded_value)):f}".zfill(places + 1)
     whole, rest = scaled[: len(scaled) - places], scaled[len(scaled) - places :]
-    return f"{'-' if value < 0 else ''}{whole}{'.' if places else ''}{rest}"
+    return f"{'-' if rounded_value < 0 else ''}{whole}{'.' if places else ''}{rest}"
 
 
 def to_fixed(places: int) -> tuple[Callable[[arb], str | None], Callable[[Fraction], str]]:

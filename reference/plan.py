@@ -149,6 +149,14 @@ class Block:
         """The problem at this element, its inputs exact."""
         return self.layout.problem(**self.inputs)
 
+    def check(self) -> None:
+        """Refuse a block that cannot be proven.
+
+        Raises:
+            ValueError: its inputs make no problem, or an argument is outside of its row's domain.
+        """
+        self.problem.arguments(self.row.name, self.arguments)
+
     def selection(self, variable: Component) -> tuple[Any, ...]:
         """Where the block lies in a variable: one index or slice a dimension."""
         lead = (self.element,) if self.layout.instances else ()
@@ -180,13 +188,14 @@ class Group:
             raise ValueError(
                 f"{self.layout.path} needs the inputs {sorted(wanted)} and parameters {sorted(parameters)}."
             )
-        arrays = {name: np.asarray(self.inputs[name], dtype=wanted[name].dtype) for name in wanted}
+        arrays = {name: _unsigned(np.asarray(self.inputs[name], dtype=wanted[name].dtype)) for name in wanted}
         for name, array in arrays.items():
             if array.ndim != 1 or not array.size or not np.isfinite(array).all():
                 raise ValueError(f"{self.layout.path}/{name} must be a non-empty list of finite numbers.")
             if array.size != arrays[self.layout.dimension_of(name)].size:
                 raise ValueError(f"{self.layout.path}/{name} and its axis differ in length.")
         object.__setattr__(self, "inputs", arrays)
+        object.__setattr__(self, "parameters", {name: value + 0.0 for name, value in self.parameters.items()})
 
     def size(self, dims: tuple[str, ...]) -> tuple[int, ...]:
         """The shape that belongs to these dimensions."""
@@ -210,6 +219,11 @@ class Group:
         values = self.inputs[self.layout.over[row.over].name]
         for start in range(0, values.size, BLOCK_LENGTH):
             yield start, values[start : start + BLOCK_LENGTH]
+
+
+def _unsigned(numbers: np.ndarray) -> np.ndarray:
+    """The numbers with +0.0 for every zero; labels as they are."""
+    return numbers + 0.0 if numbers.dtype.kind == "f" else numbers
 
 
 @dataclass(frozen=True)

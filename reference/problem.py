@@ -18,7 +18,7 @@ from mpmath import mp
 from reference.arithmetic import MPMATH
 from reference.certify import Certified
 from reference.exact import exact_array, positive
-from reference.limbs import MAX_BITS, to_limbs
+from reference.limbs import MAX_BITS, MAX_LIMBS, to_limbs
 from reference.names import unknown
 from reference.routes import enclosure, quadrature
 
@@ -26,6 +26,8 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
     from reference.arithmetic import Arithmetic
+    from reference.constants import Constant
+    from reference.domain import Domain
 
 __all__ = ["APART", "ClosedForm", "Problem", "Quantity", "Row", "SeparableProblem", "Solution"]
 
@@ -51,16 +53,20 @@ class Quantity:
 class Row:
     """Quantities that are computed together, and what they are a function of.
 
-    ``over`` is "once", "index" (0, 1, 2, ...) or the name of an exact real argument, such as "time"; ``lacks`` pairs
-    each route that cannot give the row with the reason; ``max_bits`` is the working precision at which a proof is given
-    up, lower where the row takes an integral.
+    ``domain`` says which arguments the row takes; ``lacks`` pairs each route that cannot give the row with the reason;
+    ``max_bits`` is the working precision at which a proof is given up, lower where the row takes an integral.
     """
 
     name: str
     quantities: tuple[Quantity, ...]
-    over: str
+    domain: Domain
     lacks: tuple[tuple[str, str], ...] = ()
     max_bits: int = MAX_BITS
+
+    @property
+    def over(self) -> str:
+        """What the row is a function of: "once", "index" or the name of an exact real, such as "time"."""
+        return self.domain.over
 
 
 class Solution(Protocol):
@@ -101,6 +107,11 @@ class Problem:
     def start(self) -> tuple[Fraction, ...]:
         """The exact initial state."""
         raise NotImplementedError
+
+    @property
+    def constants(self) -> tuple[Constant, ...]:
+        """The physical constants that the parameters come from; none where they are given themselves."""
+        return ()
 
     def derivative(self, m: Arithmetic, y: Sequence[Any], p: dict[str, Any]) -> tuple[Any, ...]:
         """dy/dt as a function of the state and the parameters, in any arithmetic."""
@@ -154,7 +165,12 @@ class Problem:
     def by_route(
         self, route: str, row: str, arguments: Sequence[Any], digits: int
     ) -> list[tuple[Fraction, ...]] | None:
-        """The values of a row by "taylor" or "quadrature", good to ``digits`` digits; None if it has no such row."""
+        """The values of a row by "taylor" or "quadrature", good to ``digits`` digits; None if it has no such row.
+
+        Raises:
+            ValueError: an argument is outside of the row's domain.
+        """
+        arguments = self.arguments(row, arguments)
         bits = int(digits * 3.33) + 2 * self.working_bits(arguments) + 30
         if route in dict(self.row(row).lacks) or bits > ROUTE_BITS:
             return None
@@ -180,13 +196,29 @@ class Problem:
         """Whether this problem has a row that its family knows."""
         return any(known.name == row for known in self.rows)
 
+    def domain(self, row: Row) -> Domain:
+        """The arguments that the row takes: what it declares, or less where this motion ends before."""
+        return row.domain
+
+    def arguments(self, row: str, arguments: Sequence[Any]) -> list[Any]:
+        """The exact arguments of a row: None, ints or Fractions.
+
+        Raises:
+            KeyError: there is no such row.
+            ValueError: an argument is outside of the row's domain.
+            TypeError: an argument is no real number.
+        """
+        domain = self.domain(self.row(row))
+        return [domain.argument(value, row) for value in arguments]
+
     def certified(self, row: str, argument: Any = None, component: int = 0) -> Certified:
         """One number of a row as a proven scalar.
 
         Raises:
             KeyError: there is no such row.
+            ValueError: the argument is outside of the row's domain, or the row has no such component.
+            TypeError: the argument is no real number.
         """
-        self.row(row)
         return Certified(self, row, argument, component)
 
     def values(self, row: str, arguments: Sequence[Any], count: int) -> np.ndarray:
@@ -212,7 +244,7 @@ class Problem:
             float64 of shape ``t.shape + (state,)``, with a last axis of length ``limbs`` where that is above 1.
 
         Raises:
-            ValueError: ``t`` is empty or not finite, or ``limbs`` is not a positive integer.
+            ValueError: ``t`` is empty, not finite or out of range, or ``limbs`` is not an integer from 1 to MAX_LIMBS.
             WorkBoundError: a value could not be decided within the bound on the working precision.
         """
         return self.along("state", t, limbs)
@@ -222,11 +254,14 @@ class Problem:
 
         Raises:
             KeyError: there is no such row.
-            ValueError: ``arguments`` is empty, not finite or out of range, or ``limbs`` is not a positive integer.
+            ValueError: ``arguments`` is empty, not finite or out of range, or ``limbs`` is not an integer from 1 to
+                MAX_LIMBS.
+            TypeError: ``arguments`` holds what is no real number.
             WorkBoundError: a value could not be decided within the bound on the working precision.
         """
-        asked, limbs = self.row(row), positive(limbs, "limbs")
-        numbers, shape = exact_array(arguments, "t" if asked.over == "time" else asked.over)
+        asked, limbs = self.row(row), positive(limbs, "limbs", MAX_LIMBS)
+        once: tuple[list[Any], tuple[int, ...]] = [arguments], ()
+        numbers, shape = once if asked.over == "once" else exact_array(arguments, asked.domain.name)
         found = self.values(row, numbers, limbs).reshape(*shape, len(asked.quantities), limbs)
         return found[..., 0] if limbs == 1 else found
 

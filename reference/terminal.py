@@ -57,6 +57,8 @@ class Parser(argparse.ArgumentParser):
         commands = next((a.choices for a in self._actions if isinstance(a, argparse._SubParsersAction)), None)  # noqa: SLF001 (argparse has no other way to ask)
         for word in words:
             is_option = word.startswith("-") and len(word) > 1 and not SIGNED.match(word)
+            if word.startswith("--") and word.partition("=")[2] == "--":
+                self.error(f"the value of {word.partition('=')[0]} is '--', which is none; another is accepted.")
             if word == "--" or (commands is not None and not is_option):
                 return
             name = word.partition("=")[0]

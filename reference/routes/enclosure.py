@@ -39,8 +39,10 @@ def decide(
     so that only the time depends on it.
 
     Raises:
+        ValueError: an argument is outside of the row's domain.
         WorkBoundError: a ball is undecided at the bound on the working precision.
     """
+    arguments = problem.arguments(row, arguments)
     rational = [problem.exact_row(row, argument) for argument in arguments]
     pending = [i for i, known in enumerate(rational) if known is None or None in known]
     start = bits + GUARD_BITS + problem.working_bits([arguments[i] for i in pending])

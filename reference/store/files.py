@@ -36,10 +36,12 @@ def destination(path: str | os.PathLike[str]) -> Path:
     Raises:
         FileNotFoundError, IsADirectoryError, OSError: its folder is missing, it is a folder, no regular file, or a link
             that leads nowhere.
+        TypeError: the path is bytes, or none.
     """
-    if not os.fspath(path):
+    path = _name(path)
+    if not path:
         raise FileNotFoundError("the output path is empty; the name of a file is accepted.")
-    target = Path(os.path.realpath(os.fsdecode(path)))
+    target = Path(os.path.realpath(path))
     if target.is_symlink():
         raise OSError(f"'{path}' is a link that leads to itself; choose another output path.")
     if target.is_dir():
@@ -53,14 +55,28 @@ def destination(path: str | os.PathLike[str]) -> Path:
     return target
 
 
+def _name(path: str | os.PathLike[str]) -> str:
+    """A path as text.
+
+    Raises:
+        TypeError: it is bytes, or no path.
+    """
+    name = os.fspath(path) if isinstance(path, (str, os.PathLike)) else path
+    if not isinstance(name, str):
+        raise TypeError(f"the path is of type {type(path).__name__}; text or a pathlib.Path is accepted.")
+    return name
+
+
 def regular_file(path: str | os.PathLike[str]) -> Path:
     """Return ``path`` where it is a file with something in it.
 
     Raises:
         FileNotFoundError: there is nothing of this name, or the name is empty.
         DatasetError: it is a folder, a device, empty or unreadable.
+        TypeError: the path is bytes, or none.
     """
-    if not os.fspath(path):
+    path = _name(path)
+    if not path:
         raise FileNotFoundError("the path is empty; the path of a dataset is accepted.")
     found = Path(path)
     try:

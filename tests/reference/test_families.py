@@ -72,8 +72,39 @@ def test_the_published_facts(capsys):
     assert float(steep["half_angle"]) == pytest.approx(math.pi / 3, rel=1e-11)
     assert float(steep["descent_time"]) == pytest.approx(math.pi / 2, rel=1e-15)
     fall = answer(capsys, "polar", "--z0 1e-12 --r0 6.371e6 --body earth")["descent_seconds"]
-    unit = math.sqrt(6.371e6**3 / (2 * 6.6743e-11 * 5.9722e24))
+    unit = math.sqrt(6.371e6**3 / (2 * 3.986004e14))
     assert float(fall) == pytest.approx(math.pi / 2 * unit, rel=1e-14)
+
+
+BODIES = [
+    ("earth", "398600400000000", "IAU 2015 Resolution B3"),
+    ("thesis-earth", "398602544600000", "G M with G = 6.6743e-11 m3 kg-1 s-2 and M = 5.9722e24 kg"),
+]
+
+
+@pytest.mark.parametrize("family", ["polar", "tunnel"])
+@pytest.mark.parametrize(("body", "gm", "source"), BODIES)
+def test_a_body_is_shown_with_its_constant_and_the_source(capsys, family, body, gm, source):
+    options = f"--z0 0.5 --r0 6.371e6 --body {body} --digits 15"
+    found = answer(capsys, family, options)
+    constant = found["constants"]["gm"]
+    assert (constant["value"], constant["units"]) == (gm, "m3 s-2")
+    assert source in constant["source"]
+    seconds = math.sqrt(6.371e6**3 / (float(gm) * (2 if family == "polar" else 1)))
+    assert float(found["time_unit"]) == pytest.approx(seconds, rel=1e-14)
+    assert main(["at", family, *options.split()]) == 0
+    out = capsys.readouterr().out
+    assert f"  gm = {gm} m3 s-2 ({constant['source']})\n" in out
+    assert "constants" not in answer(capsys, family, "--z0 0.5")
+
+
+def test_the_earth_of_the_thesis_is_heavier_by_five_millionths():
+    now, then = (reference.PolarBrachistochrone(z0=0.5, r0=7e6, body=body) for body, *_ in BODIES)
+    assert float(then.gm / now.gm - 1) == pytest.approx(5.38e-6, rel=1e-3)
+    assert repr(now) == "PolarBrachistochrone(z0=0.5, r0=7000000.0, body='earth')"
+    assert [constant.value for constant in now.constants] == [Fraction("3.986004e14")]
+    assert reference.PolarBrachistochrone(z0=0.5, r0=7e6, gm="3.986004e14") == now
+    assert reference.Pendulum(1).constants == ()
 
 
 def test_the_envelope_law(capsys):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from decimal import ROUND_HALF_EVEN, Decimal, localcontext
 from fractions import Fraction
 
@@ -30,7 +31,8 @@ def test_where_a_double_has_the_digits_the_text_is_the_one_of_the_double(number)
         for precision in (0, 1, 2, 5):
             for layout in LAYOUTS:
                 spec = f"{layout}.{precision}{kind}"
-                assert format(number, spec) == format(float(number), spec), spec
+                unsigned = re.sub(r"^((?:.?[<>=^])?[-+ ]?)", r"\1z", spec)
+                assert format(number, spec) == format(float(number), unsigned), spec
 
 
 @pytest.mark.parametrize("spec", ["", "10", "g", "e", ",", ".3%", "#.3g", ".4"])
@@ -55,9 +57,10 @@ def test_digits_beyond_the_double_are_those_of_the_number(number):
     assert Decimal(f"{number:.60g}") == Decimal(number.digits(60))
 
 
-def test_rounding_to_places_is_to_even_and_keeps_the_sign():
+def test_rounding_to_places_is_to_even_and_keeps_the_sign_but_of_zero():
     assert [fixed(Fraction(n, 8), 2) for n in (1, 3, -1, -3)] == ["0.12", "0.38", "-0.12", "-0.38"]
-    assert fixed(Fraction(-1, 1000), 2) == "-0.00"
+    assert fixed(Fraction(-1, 1000), 2) == "0.00"
+    assert [f"{NUMBERS['a tiny negative number']:{spec}}" for spec in (".2f", "+.0f", ".1%")] == ["0.00", "+0", "0.0%"]
     assert fixed(Fraction(5, 2), 0) == "2"
     assert len(fixed(Fraction(1, 3), 9000)) == 9002
 

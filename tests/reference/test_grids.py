@@ -83,6 +83,13 @@ def test_a_dataset_of_ones_own_is_built_and_proven(tmp_path, capsys, monkeypatch
         ("event = 2", "event = -1", "event has the count -1"),
         ("event = 2", 'event = ["first"]', "event 'first' is unknown"),
         ("taylor_elements = 4", 'taylor_elements = "4"', "taylor_elements has the count '4'"),
+        ("g = 9.81", 'g = "1/3"', "g is '1/3', a fraction; a stored input is a binary64 number"),
+        ("amplitude = [0.5,", 'amplitude = ["1/4",', "amplitude is '1/4', a fraction; a stored input is a binary64"),
+        ("stop = 1,", 'stop = "1e400",', "time is from 0 to 1e400, which is beyond the range of binary64"),
+        ("event = 2", "event = [0, -1]", "event is -1; an integer from 0"),
+        ("event = 2", "event = [99999999999]", "event is 99999999999; an integer from 0"),
+        ("event = 2", "event = [[1]]", "event is [1]; an integer from 0"),
+        ("event = 2", "event = [true]", "event is True; an integer from 0"),
         ("[[group]]", "[[grop]]", "must hold one table [[group]] or more, and nothing else"),
         (GOOD, "", "must hold one table [[group]]"),
         (GOOD, "[[group]", "is no TOML"),
@@ -97,6 +104,29 @@ def test_what_is_wrong_with_a_grid_file_is_one_sentence(tmp_path, capsys, old, n
     assert err.startswith("error: ")
     assert err.count("\n") == 1
     assert [found.name for found in tmp_path.iterdir()] == ["mine.toml"]
+
+
+@pytest.mark.parametrize(
+    ("table", "words"),
+    [
+        ('path = "/pendulum/series"\namplitude = 0.5\norder = [101]', "order is 101; an integer from 0 to 100"),
+        ('path = "/descent/race"\ncurve = 1\ntime = 0\nfraction = 1.5', "fraction is 1.5; a fraction of the way"),
+        ('path = "/descent/race"\ncurve = 1\ntime = 60\nfraction = 1', "t is 60.0; a time from 0 to the descent time"),
+        ('path = "/polar/family"\nz0 = 0.5\npsi = 1\nheight = -0.5\nepsilon = 0', "height is -0.5; a number with 0 <="),
+        ('path = "/polar/family"\nz0 = 0.5\npsi = 1\nheight = 0\nepsilon = 2', "epsilon is 2.0; a number with -1 <="),
+    ],
+)
+def test_an_argument_that_a_row_does_not_take_is_told_before_the_proof(tmp_path, table, words):
+    fixed = "g = 9.81\nlength = 1\n" if "pendulum" in table else "g = 9.81\n" if "descent" in table else ""
+    with pytest.raises(ValueError, match=r"accepted\.$") as caught:
+        plan_of(tmp_path, f"[[group]]\n{fixed}{table}\n")
+    assert words in str(caught.value)
+
+
+def test_zeros_of_a_grid_have_no_sign(tmp_path):
+    text = GOOD.replace("time = [1, 1e3]", "time = [-0.0, 1e3]").replace("start = 0,", "start = -1e-400,")
+    for group in plan_of(tmp_path, text).groups:
+        assert not np.signbit(group.inputs["time"]).any()
 
 
 def test_a_group_that_is_there_twice_is_refused(tmp_path):

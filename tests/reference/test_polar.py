@@ -118,7 +118,7 @@ def test_published_facts():
     assert float(fallen.certified("half_angle")) == pytest.approx(math.pi / 3, rel=1e-15)
     assert float(fallen.certified("descent_time")) == math.pi / 2
     free_fall = PolarBrachistochrone(z0="1e-30", r0=6371e3, body="earth")
-    seconds = math.pi / 2 * math.sqrt(6371e3**3 / (2 * 6.6743e-11 * 5.9722e24))
+    seconds = math.pi / 2 * math.sqrt(6371e3**3 / (2 * 3.986004e14))
     assert float(free_fall.certified("descent_seconds")) == pytest.approx(seconds, rel=1e-14)
 
 
@@ -262,7 +262,7 @@ def test_what_is_rational_is_exact():
 
 def test_seconds_and_metres_are_the_dimensionless_rows_times_their_units():
     problem = PolarBrachistochrone(z0=0.4, r0=6.371e6, body="earth")
-    second = math.sqrt(6.371e6**3 / (2 * 6.6743e-11 * 5.9722e24))
+    second = math.sqrt(6.371e6**3 / (2 * 3.986004e14))
     assert float(problem.certified("time_unit")) == pytest.approx(second, rel=1e-15)
     z, rate, phi = problem.state(Fraction(1000) / Fraction(problem.certified("time_unit").digits(60)))
     np.testing.assert_allclose(problem.along("si_state", 1000), [6.371e6 * z, 6.371e6 * rate / second, phi], rtol=1e-14)
@@ -301,7 +301,7 @@ def test_a_problem_reads_back_from_its_repr(problem):
         ({"z0": 0.5, "r0": 1}, "both or neither"),
         ({"z0": 0.5, "gm": 1}, "both or neither"),
         ({"z0": 0.5, "r0": -1, "gm": 1}, r"r0 is -1\.0; a positive number"),
-        ({"z0": 0.5, "r0": 1, "body": "vulcan"}, "body is 'vulcan'; one of earth is accepted"),
+        ({"z0": 0.5, "r0": 1, "body": "vulcan"}, "body is 'vulcan'; one of earth, thesis-earth is accepted"),
         ({"z0": 0.5, "r0": 1, "gm": 1, "body": "earth"}, "instead of gm"),
     ],
 )
@@ -314,8 +314,8 @@ def test_arguments_outside_of_the_path_are_refused():
     problem = PolarBrachistochrone(z0=0.5)
     for row, argument, told in (
         ("by_z", 0.4, r"z is 0\.4; a number with 0\.5 <= z <= 1"),
-        ("by_height", 1.5, "height is 1.5; a number with 0.0 <= height <= 1"),
-        ("neighbour_gap", 2, r"epsilon is 2\.0; a number with -1\.0 <= epsilon <= 1"),
+        ("by_height", 1.5, "height is 1.5; a number with 0 <= height <= 1"),
+        ("neighbour_gap", 2, r"epsilon is 2\.0; a number with -1 <= epsilon <= 1"),
     ):
         with pytest.raises(ValueError, match=told):
             problem.along(row, argument)

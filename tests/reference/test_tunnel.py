@@ -101,7 +101,9 @@ def test_it_is_venezians_hypocycloid():
 
 def test_gravity_of_a_body_is_that_of_its_mass():
     earth = Tunnel(z0=0.5, r0=6371000, body="earth")
-    assert earth.g == Fraction("6.6743e-11") * Fraction("5.9722e24") / 6371000**2
+    assert earth.g == Fraction("3.986004e14") / 6371000**2
+    of_the_thesis = Tunnel(z0=0.5, r0=6371000, body="thesis-earth")
+    assert of_the_thesis.g == Fraction("6.6743e-11") * Fraction("5.9722e24") / 6371000**2
     assert earth.unit == (6371000, 6371000 / earth.g)
 
 

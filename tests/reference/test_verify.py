@@ -10,7 +10,7 @@ from reference.build import build
 from reference.certify import DisagreementError
 from reference.groups import pendulum as groups
 from reference.plan import Group, Plan
-from reference.store import DatasetError
+from reference.store import DatasetError, load
 from reference.store.content import fingerprint
 from reference.store.schema import exact_texts
 from reference.verify import verify
@@ -18,6 +18,11 @@ from reference.verify import verify
 TINY = Plan(
     "core",
     (Group(groups.DIMENSIONLESS, groups.UNIT, {"amplitude": [0.5, 2.0], "time": np.arange(3) / 4}),),
+)
+
+EVENTS = Plan(
+    "core",
+    (Group(groups.LIBRATION, groups.EARTH, {"amplitude": [0.5], "time": [0.0], "event": [0, 1]}),),
 )
 
 
@@ -116,6 +121,44 @@ def test_a_wrong_digit_of_a_published_decimal_is_found(built):
     assert period.wrong == 0
     assert "'decimal' says 8.3497" in period.first
     assert "of element 1, which is proven to be 8.3497" in period.first
+
+
+@pytest.mark.parametrize(
+    ("variable", "place"), [("omega", (0, 0)), ("theta_tail", (1, 0, 0)), ("omega_tail", (0, 0, 1))]
+)
+def test_a_zero_whose_sign_is_forged_is_found(built, variable, place):
+    def change(file):
+        values = file[f"pendulum/dimensionless/{variable}"]
+        assert values[place] == 0
+        values[place] = -0.0
+
+    forge(built, change)
+    failed = [proof for proof in verify(built) if not proof.holds]
+    assert [proof.name for proof in failed] == [f"pendulum/dimensionless/{variable.removesuffix('_tail')}"]
+    assert (failed[0].wrong, "-0.0" in failed[0].first) == (1, True)
+
+
+def test_schema_versions_whose_zeros_have_either_sign_may_keep_them(built, monkeypatch):
+    forge(built, lambda file: file["pendulum/dimensionless/omega"].__setitem__((0, 0), -0.0))
+    version = load(built).attrs["schema_version"]
+    monkeypatch.setattr("reference.verify.ZERO_OF_EITHER_SIGN", frozenset({version}))
+    assert all(proof.holds for proof in verify(built))
+
+
+def test_an_argument_that_a_row_does_not_take_is_refused(tmp_path):
+    path = tmp_path / "events.h5"
+    build(EVENTS, path)
+
+    def change(file):
+        file["pendulum/libration/event"][1] = -3
+        text = fingerprint(file).encode()
+        file.attrs.create("fingerprint", text, dtype=h5py.string_dtype("utf-8", len(text)))
+
+    with h5py.File(path, "r+", libver=("v110", "v110")) as file:
+        change(file)
+    (path.parent / "SHA256SUMS").unlink()
+    with pytest.raises(DatasetError, match=r"at element 0 has no zero_crossing: index is -3; an integer from 0"):
+        verify(path)
 
 
 @pytest.mark.parametrize(

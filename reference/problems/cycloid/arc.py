@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any, ClassVar
 
@@ -12,12 +12,14 @@ from reference.arithmetic import MPMATH, Arithmetic, EllipticArithmetic
 from reference.exact import as_number, exact
 from reference.problem import ClosedForm, Problem, Row
 from reference.problems.cycloid.equations import point_below_cusp, run
-from reference.problems.cycloid.quantities import CURVE_ROWS, accept, exponent, positive_number
+from reference.problems.cycloid.quantities import CURVE_ROWS, HEIGHT, exponent, positive_number
 from reference.problems.cycloid.taylor import TaylorArc
 from reference.routes import quadrature
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
+
+    from reference.domain import Domain
 
 __all__ = ["CycloidArc"]
 
@@ -95,6 +97,10 @@ class CycloidArc(Problem):
     def start(self) -> tuple[Fraction, ...]:
         return ZERO, ZERO
 
+    def domain(self, row: Row) -> Domain:
+        """Depths end at the lowest point, 2 R."""
+        return replace(HEIGHT, high=2 * self.radius) if row.domain is HEIGHT else row.domain
+
     @classmethod
     def derivative(cls, m: Arithmetic, y: Sequence[Any], p: dict[str, Any]) -> tuple[Any, ...]:
         """d(x, y)/dy = (sqrt(y/(2 R - y)), 1), with a square root's singularity at both ends."""
@@ -117,13 +123,7 @@ class CycloidArc(Problem):
         return row == "state" or all(0 <= angle <= TAYLOR_RADIANS for angle in arguments)
 
     def exact_row(self, row: str, argument: Any) -> tuple[Fraction | None, ...] | None:
-        """The cusp, and the depth itself.
-
-        Raises:
-            ValueError: the depth is not within [0, 2 R].
-        """
-        if row == "state":
-            accept("height", argument, ZERO, 2 * self.radius)
+        """The cusp, and the depth itself."""
         if argument == 0:
             return ZERO, ZERO
         return (None, argument) if row == "state" else None

@@ -11,11 +11,11 @@ from typing import TYPE_CHECKING, Any, ClassVar
 from mpmath import mp
 
 from reference.arithmetic import MPMATH, Arithmetic, CalculusArithmetic
-from reference.exact import as_number, exact
+from reference.exact import as_number, exact, rational_root
 from reference.problem import APART, Row, SeparableProblem
 from reference.problems.cycloid.brachistochrone import Brachistochrone, QuadratureBrachistochrone
 from reference.problems.cycloid.equations import arc_acceleration, arc_energy
-from reference.problems.cycloid.quantities import DESCENT_ROWS, accept, exponent, positive_number
+from reference.problems.cycloid.quantities import DESCENT_ROWS, exponent, positive_number
 from reference.problems.cycloid.taylor import TaylorBrachistochrone
 from reference.routes.quadrature import to_fraction
 
@@ -32,8 +32,7 @@ TAYLOR_RADIANS = 1000
 """The Taylor route serves times up to sqrt(g/R) t = TAYLOR_RADIANS."""
 RADIUS_BITS = 1024
 """The radius, which is no rational number, is a parameter of the equation of motion to this precision."""
-ZERO, ONE, HALF = Fraction(0), Fraction(1), Fraction(1, 2)
-BOUNDS = {"fraction": (ZERO, ONE), "arc_fraction": (ZERO, ONE), "epsilon": (-HALF, HALF)}
+ZERO = Fraction(0)
 
 
 @dataclass(frozen=True, repr=False)
@@ -138,17 +137,10 @@ class Cycloid(SeparableProblem):
         """pi sqrt(R/g): from cusp to bottom."""
         return math.pi * float(self.certified("descent_time")) / float(self.certified("end_angle"))
 
-    def exact_row(self, row: str, argument: Any) -> tuple[Fraction, ...] | None:
-        """The ends of the curve, the start of the motion, and the time on the chord where it is a square root's.
-
-        Raises:
-            ValueError: the argument is outside of its range.
-        """
-        over = self.row(row).over
-        if over in BOUNDS:
-            accept(over, argument, *BOUNDS[over])
+    def exact_row(self, row: str, argument: Any) -> tuple[Fraction | None, ...] | None:
+        """The ends of the curve, the start of the motion, and the time on the chord where it is a square root's."""
         if row == "chord_time":
-            return square_root(2 * (self.end_x**2 + self.end_y**2) / (self.g * self.end_y))
+            return (rational_root(2 * (self.end_x**2 + self.end_y**2) / (self.g * self.end_y)),)
         if argument == 0:
             return (ZERO,) * len(self.row(row).quantities)
         return (self.end_x, self.end_y) if row in {"curve", "arc"} and argument == 1 else None
@@ -199,12 +191,4 @@ class Cycloid(SeparableProblem):
         Raises:
             ValueError: ``epsilon`` is not within [-1/2, 1/2].
         """
-        size = exact(epsilon, "epsilon")
-        accept("epsilon", size, *BOUNDS["epsilon"])
-        return self.certified("neighbour_gap", size)
-
-
-def square_root(square: Fraction) -> tuple[Fraction] | None:
-    """The root of a positive rational where it is rational, as a row."""
-    root = Fraction(math.isqrt(square.numerator), math.isqrt(square.denominator))
-    return (root,) if root * root == square else None
+        return self.certified("neighbour_gap", epsilon)

@@ -2,24 +2,26 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from fractions import Fraction
 
-from reference.exact import as_number, spelled
+from reference.domain import ANGLE, FRACTION, ONCE, TIME, Reals
+from reference.exact import as_number
 from reference.problem import Quantity, Row
 
-if TYPE_CHECKING:
-    from fractions import Fraction
-
-__all__ = ["CURVE_ROWS", "DESCENT_ROWS", "PENDULUM_ROWS", "SWING_ROWS", "accept", "exponent", "positive_number"]
+__all__ = ["CURVE_ROWS", "DESCENT_ROWS", "HEIGHT", "PENDULUM_ROWS", "SWING_ROWS", "exponent", "positive_number"]
 
 INTEGRAL_BITS = 1 << 12
 """An integral to this precision takes some seconds, and each doubling six times as long."""
 THETA = "theta = fraction end_angle"
+ARC_FRACTION = Reals("arc_fraction", "arc_fraction", Fraction(0), Fraction(1))
+EPSILON = Reals("epsilon", "epsilon", Fraction(-1, 2), Fraction(1, 2))
+HEIGHT = Reals("height", "height", Fraction(0))
+"""To the lowest point, 2 R, of each curve."""
 
 
 def once(name: str, units: str, long_name: str, definition: str) -> Row:
     """A row of one quantity of the same name, the same for the whole motion."""
-    return Row(name, (Quantity(name, units, long_name, definition),), "once")
+    return Row(name, (Quantity(name, units, long_name, definition),), ONCE)
 
 
 DESCENT_ROWS = (
@@ -29,7 +31,7 @@ DESCENT_ROWS = (
             Quantity("arc", "m", "arc length from the start", "s = 4 R (1 - cos(theta/2)), theta = sqrt(g/R) t"),
             Quantity("arc_rate", "m s-1", "rate of the arc length", "ds/dt = 2 sqrt(g R) sin(theta/2)"),
         ),
-        "time",
+        TIME,
     ),
     Row(
         "position",
@@ -37,7 +39,7 @@ DESCENT_ROWS = (
             Quantity("x_by_time", "m", "horizontal distance from the start", "x = R (theta - sin(theta)) at s(t)"),
             Quantity("y_by_time", "m", "depth below the start", "y = R (1 - cos(theta)) at s(t)"),
         ),
-        "time",
+        TIME,
     ),
     Row(
         "curve",
@@ -45,7 +47,7 @@ DESCENT_ROWS = (
             Quantity("x", "m", "horizontal distance from the start", f"x = R (theta - sin(theta)), {THETA}"),
             Quantity("y", "m", "depth below the start", f"y = R (1 - cos(theta)), {THETA}"),
         ),
-        "fraction",
+        FRACTION,
     ),
     Row(
         "arc",
@@ -53,7 +55,7 @@ DESCENT_ROWS = (
             Quantity("x_by_arc", "m", "horizontal distance from the start", "x where s = arc_fraction arc_length"),
             Quantity("y_by_arc", "m", "depth below the start", "y where s = arc_fraction arc_length"),
         ),
-        "arc_fraction",
+        ARC_FRACTION,
     ),
     once("radius", "m", "radius of the rolling circle", "R = end_y/(1 - cos(end_angle))"),
     once(
@@ -76,7 +78,7 @@ DESCENT_ROWS = (
                 "time with y replaced by y (1 + epsilon sin(pi theta/end_angle)) at the same x, less descent_time",
             ),
         ),
-        "epsilon",
+        EPSILON,
         max_bits=INTEGRAL_BITS,
     ),
 )
@@ -89,7 +91,7 @@ CURVE_ROWS = (
             Quantity("x", "m", "horizontal distance from the cusp", "x = R acos(1 - y/R) - sqrt(y (2 R - y))"),
             Quantity("y", "m", "depth below the cusp", "y"),
         ),
-        "height",
+        HEIGHT,
     ),
     Row(
         "curve",
@@ -97,7 +99,7 @@ CURVE_ROWS = (
             Quantity("x_by_angle", "m", "horizontal distance from the cusp", "x = R (theta - sin(theta))"),
             Quantity("y_by_angle", "m", "depth below the cusp", "y = R (1 - cos(theta))"),
         ),
-        "angle",
+        ANGLE,
     ),
 )
 """Of the curve itself."""
@@ -119,7 +121,7 @@ SWING_ROWS = (
             Quantity("angle", "rad", "angle from the bottom", "theta = 2 asin(sin(theta(0)/2) cos(sqrt(g/(4 R)) t))"),
             Quantity("angular_velocity", "rad s-1", "angular velocity", "dtheta/dt"),
         ),
-        "time",
+        TIME,
     ),
     Row(
         "position",
@@ -127,27 +129,16 @@ SWING_ROWS = (
             Quantity("x", "m", "horizontal distance from the bottom", "x = R (theta + sin(theta))"),
             Quantity("y", "m", "height above the bottom", "y = R (1 - cos(theta))"),
         ),
-        "time",
+        TIME,
     ),
-    Row("arc", _ARC, "time"),
+    Row("arc", _ARC, TIME),
     *_TIMES,
     _ENERGY,
 )
 """Of the tautochrone by its angle."""
 
-PENDULUM_ROWS = (Row("state", _ARC, "time"), *_TIMES, _ENERGY)
+PENDULUM_ROWS = (Row("state", _ARC, TIME), *_TIMES, _ENERGY)
 """Of the same pendulum by its arc length."""
-
-
-def accept(name: str, value: Fraction, low: Fraction, high: Fraction) -> None:
-    """Refuse an argument outside of its closed interval.
-
-    Raises:
-        ValueError: it is.
-    """
-    if not low <= value <= high:
-        bounds = f"{spelled(low)} <= {name} <= {spelled(high)}"
-        raise ValueError(f"{name} is {as_number(value)}; a number with {bounds} is accepted.")
 
 
 def positive_number(name: str, value: Fraction) -> None:

@@ -79,8 +79,11 @@ class Swinging(Problem):
         latest = TAYLOR_WORK / ((1 + self.cusp_bits) * words**2 * self.frequency())
         return all(0 <= t <= latest for t in times)
 
-    def exact_row(self, row: str, argument: Any) -> tuple[Fraction, ...] | None:
-        return self.start if row == "state" and argument == 0 else None
+    def exact_row(self, row: str, argument: Any) -> tuple[Fraction | None, ...] | None:
+        """The start, and the rate of the arc length there: at rest."""
+        if argument != 0:
+            return None
+        return {"state": self.start, "arc": (None, ZERO)}.get(row)
 
     def working_bits(self, arguments: Sequence[Any]) -> int:
         times = [abs(t) for t in arguments if t is not None]
@@ -256,7 +259,7 @@ class CycloidalPendulum(SeparableProblem, Swinging):
         smaller = 1 - max(APART, 16 * epsilon)
         return CycloidalPendulum(rounding(self.arc * smaller), self.radius, self.g)
 
-    def exact_row(self, row: str, argument: Any) -> tuple[Fraction, ...] | None:
+    def exact_row(self, row: str, argument: Any) -> tuple[Fraction | None, ...] | None:
         """The start, and the energy, which is rational."""
         energy = (self.g * self.arc**2 / (8 * self.radius),)
         return energy if row == "energy" else super().exact_row(row, argument)

@@ -11,10 +11,11 @@ from flint import arb, ctx
 
 from reference.arithmetic import NUMPY
 from reference.balls import BALL
+from reference.domain import Domain, Reals
 from reference.dual import DualArithmetic
 from reference.exact import as_number, exact
 from reference.limbs import ziv
-from reference.names import short
+from reference.names import said, short
 from reference.problem import APART, ClosedForm, Problem, Row
 from reference.problems.descent.admission import admitted
 from reference.problems.descent.curves import Curve, CycloidByArc, lagrange, spelled_curve
@@ -94,7 +95,7 @@ class Descent(Problem):
 
     def _check_end(self, to: Any) -> None:
         if not isinstance(to, (tuple, list)) or len(to) != 2:
-            raise ValueError(f"to is {short(repr(to))}; a point (x, y) is accepted.")
+            raise ValueError(f"to is {said(to)}; a point (x, y) is accepted.")
         asked = [BALL.number(exact(value, f"to[{i}]")) for i, value in enumerate(to)]
         with ctx.workprec(DECISION_BITS):
             one, start = BALL.number(Fraction(1)), BALL.number(self.released)
@@ -104,7 +105,7 @@ class Descent(Problem):
             near = [abs(a - b) < size * BALL.number(END_TOLERANCE) for a, b in zip(asked, reached, strict=True)]
         if not all(near):
             shown = ", ".join(f"{float(value.mid()):.6g}" for value in reached)
-            raise ValueError(f"to is {tuple(to)!r}, but curve '{short(curve.name)}' ends at ({shown}).")
+            raise ValueError(f"to is {said(tuple(to))}, but curve '{short(curve.name)}' ends at ({shown}).")
 
     @property
     def parameters(self) -> dict[str, Fraction]:
@@ -167,37 +168,21 @@ class Descent(Problem):
         del row, arguments
         return self.slide.order == 1
 
-    def by_route(self, route: str, row: str, arguments: Sequence[Any], digits: int) -> Any:
-        """The values of a row by "taylor" or "quadrature"; see Problem."""
-        for argument in arguments:
-            self._check(row, argument)
-        return super().by_route(route, row, arguments, digits)
+    def domain(self, row: Row) -> Domain:
+        """Places begin at the release, times end with the descent."""
+        if row.over == "fraction":
+            return Places(row.over, row.domain.name, self.released, Fraction(1))
+        return Descending(row.over, row.domain.name, self) if row.over == "time" else row.domain
 
     def exact_row(self, row: str, argument: Any) -> tuple[Fraction | None, ...] | None:
-        """What is rational, exactly.
-
-        Raises:
-            ValueError: the argument is outside of the descent.
-        """
-        self._check(row, argument)
+        """What is rational, exactly."""
         return self._rational.row(row, argument)
 
     @cached_property
     def _rational(self) -> Rational:
         return Rational(self.slide, self.g)
 
-    def _check(self, row: str, argument: Any) -> None:
-        over = self.row(row).over
-        if over == "fraction" and not self.released <= argument <= 1:
-            low = as_number(self.released)
-            raise ValueError(f"fraction is {as_number(argument)}; a fraction of the way from {low} to 1 is accepted.")
-        if over == "time" and not (argument == 0 or (argument > 0 and self._in_time(argument))):
-            seconds = f"{float(self.descent_time()):.6g}"
-            raise ValueError(
-                f"t is {as_number(argument)}; a time from 0 to the descent time of {self!r}, {seconds} s, is accepted."
-            )
-
-    def _in_time(self, t: Fraction) -> bool:
+    def in_time(self, t: Fraction) -> bool:
         """Whether t is no later than the descent time."""
         for end in self._rational.row("descent_time", None) or ():
             return end is not None and t <= end
@@ -232,3 +217,27 @@ class Descent(Problem):
     def arc_length(self) -> Certified:
         """The length of the way, in m."""
         return self.certified("arc_length")
+
+
+@dataclass(frozen=True)
+class Places(Reals):
+    """The places from the release to the end of the curve."""
+
+    @property
+    def accepted(self) -> str:
+        return f"a fraction of the way from {as_number(self.low or Fraction(0))} to 1"
+
+
+@dataclass(frozen=True)
+class Descending(Domain):
+    """The times from the release to the end of the curve."""
+
+    descent: Descent
+
+    def contains(self, number: Fraction) -> bool:
+        return number == 0 or (number > 0 and self.descent.in_time(number))
+
+    @property
+    def accepted(self) -> str:
+        seconds = f"{float(self.descent.descent_time()):.6g}"
+        return f"a time from 0 to the descent time of {self.descent!r}, {seconds} s,"

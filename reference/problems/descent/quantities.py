@@ -1,20 +1,25 @@
 """What can be asked of a descent: names, units and definitions."""
 
+from fractions import Fraction
+
+from reference.domain import FRACTION, ONCE, Reals
 from reference.problem import Quantity, Row
 
 __all__ = ["ROWS"]
 
 SQUARES = "N = x_w^2 + y_w^2"
+TIME = Reals("time", "t", Fraction(0))
+"""To the descent time of each motion."""
 ROWS = (
     Row(
         "descent_time",
         (Quantity("descent_time", "s", "time of the descent", f"T = int sqrt(N/(2 g drop)) dw, {SQUARES}"),),
-        "once",
+        ONCE,
     ),
     Row(
         "arc_length",
         (Quantity("arc_length", "m", "length of the way", f"int sqrt(N) dw, {SQUARES}"),),
-        "once",
+        ONCE,
     ),
     Row(
         "state",
@@ -27,7 +32,7 @@ ROWS = (
             ),
             Quantity("place_rate", "s-1", "rate of the fraction of the way", "w' = dw/dt = sqrt(2 g drop/N)"),
         ),
-        "time",
+        TIME,
     ),
     Row(
         "motion",
@@ -38,7 +43,7 @@ ROWS = (
             Quantity("velocity_x", "m s-1", "horizontal component of the velocity", "dx/dt = x_w w'"),
             Quantity("velocity_y", "m s-1", "vertical component of the velocity, upwards", "dy/dt = y_w w'"),
         ),
-        "time",
+        TIME,
     ),
     Row(
         "passage",
@@ -49,6 +54,6 @@ ROWS = (
             Quantity("passage_speed", "m s-1", "speed of the body at the place", "v = sqrt(2 g drop)"),
             Quantity("passage_velocity_x", "m s-1", "horizontal component of the velocity there", "v x_w/sqrt(N)"),
         ),
-        "fraction",
+        FRACTION,
     ),
 )

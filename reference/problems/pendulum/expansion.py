@@ -168,8 +168,6 @@ class PendulumSeries(Expansion):
 
     def exact_row(self, row: str, argument: Any) -> None:
         """No value is known to be rational."""
-        del row
-        series.checked(argument)
 
     def working_bits(self, arguments: Sequence[Any]) -> int:
         return self._lost(4 * max(arguments, default=0) + 5)

@@ -20,6 +20,7 @@ from reference.problems.pendulum.equations import angular_acceleration, energy_a
 from reference.problems.pendulum.events import DECISION_BITS, Events, events
 from reference.problems.pendulum.motions import BY_QUADRATURE, CLOSED_FORMS, Motion
 from reference.problems.pendulum.quantities import ROWS, SERVED
+from reference.problems.pendulum.rational import rational
 from reference.problems.pendulum.taylor import TAYLOR_RADIANS, TaylorMotion
 
 if TYPE_CHECKING:
@@ -170,26 +171,14 @@ class Pendulum(SeparableProblem):
         theta0, omega0, g, length = (m.number(value) for value in (self.theta0, self.omega0, self.g, self.length))
         return forms[self.motion](m, theta0, omega0, g, length, self.turns)
 
-    def exact_row(self, row: str, argument: Any) -> tuple[Fraction, ...] | None:
-        one, zero = Fraction(1), Fraction(0)
-        if self.motion == "rest" and row in {"state", "condition"}:
-            return self.start if row == "state" else (one,)
-        if argument != 0 or isinstance(argument, int):
-            return None
-        gradient = one, zero, zero, zero, zero, one, zero, zero
-        at_start = {
-            "state": self.start,
-            "sensitivity": (one, zero),
-            "curvature": (zero, zero),
-            "gradient": gradient,
-            "condition": (one,),
-        }
-        return at_start.get(row)
+    def exact_row(self, row: str, argument: Any) -> tuple[Fraction | None, ...] | None:
+        """The start, rest, and what a start at the bottom makes rational."""
+        return rational(self, row, argument)
 
     def working_bits(self, arguments: Sequence[Any]) -> int:
         sizes = [_size(t) for t in arguments if isinstance(t, Fraction)]
         turns = max(sizes, default=0) + _size(1 + self.g / self.length + abs(self.omega0))
-        return max(0, turns) + 2 * self._edge_bits
+        return max(0, turns, _size(self.theta0)) + 2 * self._edge_bits
 
     @cached_property
     def _edge_bits(self) -> int:
@@ -197,7 +186,7 @@ class Pendulum(SeparableProblem):
         if self.motion in {"rest", "separatrix"}:
             return 0
         quarter = self.omega0**2 * self.length / (4 * self.g)
-        with ctx.workprec(4096):
+        with ctx.workprec(4096 + max(0, _size(self.theta0))):
             cosine = BALL.cos(BALL.number(self.theta0) / 2) ** 2
             squares = (
                 abs(BALL.number(quarter) - cosine),

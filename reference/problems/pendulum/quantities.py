@@ -1,6 +1,8 @@
 """What can be asked of the pendulum: names, units and definitions, w = sqrt(g/length) throughout."""
 
+from reference.domain import INDEX, ONCE, TIME, Whole
 from reference.problem import Quantity, Row
+from reference.problems.pendulum.series import MAX_ORDER
 
 __all__ = ["LINDSTEDT_ROWS", "LINEAR_ROWS", "ROWS", "SERIES_ROWS", "SERVED"]
 
@@ -73,19 +75,19 @@ PERIOD_CURVATURE = Quantity(
 )
 FORMULA = (("taylor", "a formula of the inputs, which no motion gives"),)
 ROWS = (
-    Row("state", (THETA, OMEGA), "time"),
-    Row("sensitivity", SENSITIVITY, "time"),
-    Row("curvature", CURVATURE, "time"),
-    Row("gradient", GRADIENT, "time"),
-    Row("condition", (CONDITION,), "time"),
-    Row("period", (PERIOD,), "once"),
-    Row("energy", (ENERGY,), "once"),
-    Row("modulus", (MODULUS,), "once", FORMULA),
-    Row("complementary_modulus", (COMPLEMENTARY,), "once", FORMULA),
-    Row("dperiod_damplitude", (PERIOD_SLOPE,), "once"),
-    Row("d2period_damplitude2", (PERIOD_CURVATURE,), "once"),
-    Row("zero_crossing", (ZERO_CROSSING,), "index"),
-    Row("turning_point", (TURNING_POINT,), "index"),
+    Row("state", (THETA, OMEGA), TIME),
+    Row("sensitivity", SENSITIVITY, TIME),
+    Row("curvature", CURVATURE, TIME),
+    Row("gradient", GRADIENT, TIME),
+    Row("condition", (CONDITION,), TIME),
+    Row("period", (PERIOD,), ONCE),
+    Row("energy", (ENERGY,), ONCE),
+    Row("modulus", (MODULUS,), ONCE, FORMULA),
+    Row("complementary_modulus", (COMPLEMENTARY,), ONCE, FORMULA),
+    Row("dperiod_damplitude", (PERIOD_SLOPE,), ONCE),
+    Row("d2period_damplitude2", (PERIOD_CURVATURE,), ONCE),
+    Row("zero_crossing", (ZERO_CROSSING,), INDEX),
+    Row("turning_point", (TURNING_POINT,), INDEX),
 )
 
 _ALWAYS = ("state", "energy", "gradient", "condition")
@@ -106,9 +108,9 @@ LINEAR_ROWS = (
             Quantity("theta", "rad", "angle of the linearised pendulum", f"theta'' = -(g/length) theta, {START}"),
             OMEGA,
         ),
-        "time",
+        TIME,
     ),
-    Row("period", (Quantity("period", "s", "period of the linearised pendulum", "T = 2 pi sqrt(length/g)"),), "once"),
+    Row("period", (Quantity("period", "s", "period of the linearised pendulum", "T = 2 pi sqrt(length/g)"),), ONCE),
     Row(
         "energy",
         (
@@ -116,10 +118,11 @@ LINEAR_ROWS = (
                 "energy", "s-2", "energy per m l^2 of the linearised pendulum", "E = (omega^2 + (g/length) theta^2)/2"
             ),
         ),
-        "once",
+        ONCE,
     ),
 )
 
+ORDER = Whole("index", "order", MAX_ORDER)
 SERIES_ROWS = (
     Row(
         "period_series",
@@ -131,7 +134,7 @@ SERIES_ROWS = (
                 "T_n = 2 pi sqrt(length/g) (1 + a^2/16 + ... up to a^(2 n)), a = theta0",
             ),
         ),
-        "index",
+        ORDER,
         FORMULA,
     ),
     Row(
@@ -141,7 +144,7 @@ SERIES_ROWS = (
                 "period_series_error", "1", "relative error of the period by its series", "T_n/T - 1, T the period"
             ),
         ),
-        "index",
+        ORDER,
     ),
     Row(
         "lindstedt_error",
@@ -153,7 +156,7 @@ SERIES_ROWS = (
                 "theta_n(T) - theta0, theta_n up to a^(2 n + 1), its frequency up to a^(2 n); T the exact period",
             ),
         ),
-        "index",
+        ORDER,
     ),
     Row(
         "lindstedt_crossing_error",
@@ -165,7 +168,7 @@ SERIES_ROWS = (
                 "theta_n(T/4), theta_n up to a^(2 n + 1), its frequency up to a^(2 n); T the exact period",
             ),
         ),
-        "index",
+        ORDER,
     ),
 )
 LINDSTEDT_ROWS = (
@@ -179,7 +182,7 @@ LINDSTEDT_ROWS = (
                 "theta_n = sum_j a^(2 j + 1) sum_m c[j][m] cos(m w t), j = 0 ... n, a = theta0",
             ),
         ),
-        "time",
+        TIME,
         FORMULA,
     ),
     Row(
@@ -192,6 +195,6 @@ LINDSTEDT_ROWS = (
                 "theta_n - theta",
             ),
         ),
-        "time",
+        TIME,
     ),
 )

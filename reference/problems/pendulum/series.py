@@ -17,6 +17,8 @@ from typing import TYPE_CHECKING, Any
 
 from flint import fmpq, fmpq_poly
 
+from reference.exact import counted
+
 if TYPE_CHECKING:
     from reference.arithmetic import EllipticArithmetic
 
@@ -49,9 +51,7 @@ def _product(a: list[Fraction], b: list[Fraction]) -> list[Fraction]:
 
 def checked(order: Any) -> int:
     """``order``, if it is one that is served."""
-    if isinstance(order, bool) or not isinstance(order, int) or not 0 <= order <= MAX_ORDER:
-        raise ValueError(f"order is {order!r}; an integer from 0 to {MAX_ORDER} is accepted.")
-    return order
+    return counted(order, "order", MAX_ORDER)
 
 
 Harmonics = dict[int, Fraction]

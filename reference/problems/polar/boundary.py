@@ -14,6 +14,7 @@ faster, and none is the fastest.
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from fractions import Fraction
 from functools import lru_cache
 from itertools import islice
@@ -23,15 +24,17 @@ from flint import arb, ctx
 from mpmath import mp
 
 from reference.arithmetic import BALL
+from reference.domain import Domain
 from reference.exact import as_number
 from reference.limbs import WorkBoundError, ziv
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
+    from reference.problems.polar.central import CentralBrachistochrone
     from reference.problems.polar.extremal import End, Extremal, Field
 
-__all__ = ["end_of", "exponent_near", "lowest_point"]
+__all__ = ["Reached", "end_of", "exponent_near", "lowest_point"]
 
 DECISION_BITS = 128
 RANGE = 512
@@ -65,17 +68,35 @@ def end_of(radius: Fraction, angle: Fraction, field: Field, extremal: Callable[.
     return End(radius, angle, after)
 
 
+@dataclass(frozen=True)
+class Reached(Domain):
+    """The heights from the irrational lowest point of a path to the release."""
+
+    path: CentralBrachistochrone
+
+    def contains(self, number: Fraction) -> bool:
+        if not 0 < number <= 1:
+            return False
+        bits = DECISION_BITS + self.path.working_bits([])
+        what = f"whether z = {as_number(number)} is above the lowest point of {self.path!r}"
+        return _positive(lambda: BALL.number(number) - self.path.closed_form(BALL).z0, what, bits)
+
+    @property
+    def accepted(self) -> str:
+        return f"a number from the lowest point, about {self.path.near_lowest:.6g}, to 1"
+
+
 def _told(radius: Fraction, angle: Fraction) -> str:
     return f"end is ({as_number(radius)}, {as_number(angle)})"
 
 
-def _positive(difference: Callable[[], arb], what: str) -> bool:
+def _positive(difference: Callable[[], arb], what: str, bits: int = DECISION_BITS) -> bool:
     """Whether a number is positive, decided in balls; it is not zero."""
 
     def certain(ball: arb) -> bool | None:
         return ball > 0 if ball.is_finite() and not ball.contains(0) else None
 
-    return ziv(lambda _: [[difference()]], certain, 1, DECISION_BITS, what)[0][0]
+    return ziv(lambda _: [[difference()]], certain, 1, bits, what)[0][0]
 
 
 def lowest_point(m: Any, end: End, extremal: Callable[..., Extremal], exponent: Fraction) -> Any:

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from dataclasses import field as known_as
 from fractions import Fraction
 from functools import cached_property, lru_cache, partial
 from typing import TYPE_CHECKING, Any, ClassVar
@@ -12,11 +13,14 @@ from flint import ctx
 from mpmath import mp
 
 from reference.arithmetic import BALL, MPMATH
-from reference.exact import as_number, exact
+from reference.exact import as_number, exact, exact_array, rational_root
+from reference.names import said
 from reference.problem import Problem, Row
-from reference.problems.polar.boundary import end_of, exponent_near, lowest_point
+from reference.problems.polar.bodies import BODIES
+from reference.problems.polar.boundary import Reached, end_of, exponent_near, lowest_point
 from reference.problems.polar.numerical import Numerical
 from reference.problems.polar.panels import panels_of
+from reference.problems.polar.quantities import Z
 from reference.problems.polar.taylor import TaylorExtremal
 
 if TYPE_CHECKING:
@@ -24,12 +28,12 @@ if TYPE_CHECKING:
 
     from reference.arithmetic import Arithmetic
     from reference.certify import Certified
+    from reference.constants import Constant
+    from reference.domain import Domain
     from reference.problems.polar.extremal import End, Extremal, Field
 
-__all__ = ["BODIES", "CentralBrachistochrone", "rational_root"]
+__all__ = ["CentralBrachistochrone"]
 
-BODIES = {"earth": Fraction("6.6743e-11") * Fraction("5.9722e24")}
-"""G M in m^3/s^2 of the bodies that have a name; the Earth's is the product of the constants of the thesis."""
 PI = Fraction(math.pi)
 SECONDS = ("time_unit", "descent_seconds", "arrival_seconds", "si_curve", "si_state")
 TAYLOR_PSI = 16
@@ -43,12 +47,13 @@ PASSAGE = 2.0**-40
 class CentralBrachistochrone(Problem):
     """The curve of fastest descent in a central field, from rest at (1, 0), by its lowest point or by its end.
 
-    Subclasses set ``z0`` or ``end``, and ``unit``, and name their law of force.
+    Subclasses set ``z0`` or ``end``, ``body``, and ``unit``, and name their law of force.
     """
 
     z0: Fraction | None
     end: tuple[Fraction, Fraction] | None
     r0: Fraction | None
+    body: str | None = known_as(compare=False)
 
     state_names: ClassVar[tuple[str, ...]] = ("z", "z_rate", "phi")
     max_bits: ClassVar[int] = 1 << 14
@@ -75,10 +80,8 @@ class CentralBrachistochrone(Problem):
         lowest = None if z0 is None else exact(z0, "z0")
         if lowest is not None and not 0 < lowest < 1:
             raise ValueError(f"z0 is {as_number(lowest)}; a lowest point with 0 < z0 < 1 is accepted.")
-        if end is not None and (isinstance(end, str) or not hasattr(end, "__len__") or len(end) != 2):
-            raise ValueError(f"end is {end!r}; a pair (R, PHI) is accepted.")
         object.__setattr__(self, "z0", lowest)
-        object.__setattr__(self, "end", None if end is None else tuple(exact(value, "end") for value in end))
+        object.__setattr__(self, "end", None if end is None else _pair(end))
         _ = self.goal
 
     def _set_positive(self, name: str, value: Any) -> None:
@@ -92,14 +95,20 @@ class CentralBrachistochrone(Problem):
             raise ValueError(f"{name} is {as_number(number)}; a positive number is accepted.")
         object.__setattr__(self, name, number)
 
+    @property
+    def constants(self) -> tuple[Constant, ...]:
+        """G M, where it is that of a body with a name."""
+        return () if self.body is None else (BODIES[self.body],)
+
     def _spelled(self, *dimensions: str) -> str:
-        """How the path and the given dimensions are written as arguments."""
+        """How the path and the given dimensions are written as arguments: the strength of the field last."""
         if self.z0 is not None:
             path = f"z0={as_number(self.z0)!r}"
         else:
             path = f"end=({', '.join(repr(as_number(value)) for value in self.end or ())})"
         known = [(name, getattr(self, name)) for name in dimensions]
-        return ", ".join([path, *(f"{name}={as_number(value)!r}" for name, value in known if value is not None)])
+        spelled = [f"{name}={as_number(value)!r}" for name, value in known if value is not None]
+        return ", ".join([path, *(spelled if self.body is None else [*spelled[:-1], f"body={self.body!r}"])])
 
     @cached_property
     def goal(self) -> End | None:
@@ -208,27 +217,14 @@ class CentralBrachistochrone(Problem):
         """The dimensionless time to the end, or to where z = 1 again."""
         return self.certified("arrival_time")
 
-    def certified(self, row: str, argument: Any = None, component: int = 0) -> Certified:
-        """One number of a row as a proven scalar.
-
-        Raises:
-            KeyError: there is no such row.
-            ValueError: the argument is out of range.
-        """
-        self._check(row, argument)
-        return super().certified(row, argument, component)
-
-    def _check(self, row: str, argument: Any) -> None:
-        over = self.row(row).over
-        lowest = {"height": Fraction(0), "z": self.z0 or Fraction(0), "epsilon": Fraction(-1)}
-        if over in lowest and not lowest[over] <= argument <= 1:
-            raise ValueError(
-                f"{over} is {as_number(argument)}; a number with {as_number(lowest[over])} <= {over} <= 1 is accepted."
-            )
+    def domain(self, row: Row) -> Domain:
+        """Heights on the way begin at the lowest point."""
+        if row.domain is not Z:
+            return row.domain
+        return Reached(Z.over, Z.name, self) if self.z0 is None else replace(Z, low=self.z0)
 
     def exact_row(self, row: str, argument: Any) -> tuple[Fraction | None, ...] | None:
         """What is rational: the release, kappa and heights of a rational lowest point, and no change to the curve."""
-        self._check(row, argument)
         zero, one = Fraction(0), Fraction(1)
         if row == "kappa" and self.z0 is not None:
             return (self.field.kappa(self.z0),)
@@ -262,15 +258,22 @@ class CentralBrachistochrone(Problem):
         return _bits(radius) + _bits(angle) + _bits(self.field.sweep * PI - angle)
 
 
+def _pair(end: Any) -> tuple[Fraction, Fraction]:
+    """The exact radius and angle of an end.
+
+    Raises:
+        ValueError: it is no pair of numbers.
+        TypeError: it holds what is no number.
+    """
+    numbers, shape = ([], ()) if isinstance(end, str) else exact_array(end, "end")
+    if shape != (2,):
+        raise ValueError(f"end is {said(end)}; a pair (R, PHI) is accepted.")
+    return numbers[0], numbers[1]
+
+
 def _bits(part: Fraction) -> int:
     """About -log2 of a small number."""
     return int(1 / abs(part)).bit_length() if part else 0
-
-
-def rational_root(square: Fraction) -> Fraction | None:
-    """The root of a positive rational, where it is rational."""
-    root = Fraction(math.isqrt(square.numerator), math.isqrt(square.denominator))
-    return root if root * root == square else None
 
 
 @lru_cache(maxsize=8)

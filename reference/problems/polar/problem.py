@@ -7,8 +7,9 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 from reference.arithmetic import BALL
 from reference.problem import APART
+from reference.problems.polar.bodies import body_of
 from reference.problems.polar.carlson import Carlson
-from reference.problems.polar.central import BODIES, CentralBrachistochrone
+from reference.problems.polar.central import CentralBrachistochrone
 from reference.problems.polar.equations import POINT_MASS
 from reference.problems.polar.quantities import ROWS
 from reference.problems.polar.series import EQUAL, Limit, deep, shallow
@@ -32,7 +33,8 @@ class PolarBrachistochrone(CentralBrachistochrone):
         end: or the end (R, PHI): its radius over r0, 0 < R <= 1, and its angle in rad, 0 < PHI < 2 pi/3.
         r0: the radius of the release in m, for rows in m and s.
         gm: G M in m^3/s^2; both or neither.
-        body: instead of ``gm`` the name of a body: "earth".
+        body: instead of ``gm`` the name of a body: "earth", G M = 3.986004e14 m^3/s^2 (the nominal value of IAU 2015
+            Resolution B3), or "thesis-earth", the product of the thesis' G and M, which is 5.4e-6 larger.
 
     Each number is exact: a float at its binary64 value, a string or Fraction as the rational it spells.  Times are in
     units of sqrt(r0^3/(2 G M)).  All mass is taken to be in a point at the centre: a path below the surface of a real
@@ -57,14 +59,13 @@ class PolarBrachistochrone(CentralBrachistochrone):
     def __init__(
         self, z0: Any = None, end: Any = None, r0: Any = None, gm: Any = None, body: str | None = None
     ) -> None:
-        if body is not None:
-            if gm is not None or body not in BODIES:
-                raise ValueError(f"body is {body!r}; one of {', '.join(BODIES)} is accepted, instead of gm.")
-            gm = BODIES[body]
+        known = body_of(body, gm, "gm")
+        gm = gm if known is None else known.value
         if (r0 is None) != (gm is None):
             raise ValueError("r0 and gm, or r0 and body, are accepted together: both or neither.")
         self._set_positive("r0", r0)
         self._set_positive("gm", gm)
+        object.__setattr__(self, "body", body)
         self._set_path(z0, end)
 
     def __repr__(self) -> str:

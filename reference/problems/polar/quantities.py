@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from fractions import Fraction
 
+from reference.domain import ONCE, TIME, Reals
 from reference.problem import Quantity, Row
 
-__all__ = ["ROWS", "Definitions", "rows_of"]
+__all__ = ["ROWS", "Definitions", "Z", "rows_of"]
 
 
 @dataclass(frozen=True)
@@ -24,6 +26,12 @@ class Definitions:
     setting: str
 
 
+ZERO, UNITY = Fraction(0), Fraction(1)
+TAU, PSI = Reals("tau", "tau"), Reals("psi", "psi")
+Z = Reals("z", "z", ZERO, UNITY)
+"""Above the lowest point of each path."""
+HEIGHT = Reals("height", "height", ZERO, UNITY)
+EPSILON = Reals("epsilon", "epsilon", -UNITY, UNITY)
 INTEGRAL_BITS = 1 << 11
 """Working precision at which a proof of what takes an integral in balls is given up."""
 FORMULA = (("taylor", "a formula of the inputs, which no motion gives"),)
@@ -37,9 +45,9 @@ def rows_of(of: Definitions) -> tuple[Row, ...]:
     phi = Quantity("phi", "rad", "angle swept since the release", of.phi)
     tau = Quantity("tau", "1", f"time since the release in units of {of.time_unit}", of.tau)
     return (
-        Row("state", (z, Quantity("z_rate", "1", "rate of the height", of.rate), phi), "tau"),
-        Row("curve", (z, phi, tau), "psi"),
-        Row("by_z", (_named(phi, "phi_by_z"), _named(tau, "tau_by_z")), "z"),
+        Row("state", (z, Quantity("z_rate", "1", "rate of the height", of.rate), phi), TAU),
+        Row("curve", (z, phi, tau), PSI),
+        Row("by_z", (_named(phi, "phi_by_z"), _named(tau, "tau_by_z")), Z),
         Row(
             "by_height",
             (
@@ -47,7 +55,7 @@ def rows_of(of: Definitions) -> tuple[Row, ...]:
                 _named(phi, "phi_by_height"),
                 _named(tau, "tau_by_height"),
             ),
-            "height",
+            HEIGHT,
         ),
         *_once(of),
         Row(
@@ -61,7 +69,7 @@ def rows_of(of: Definitions) -> tuple[Row, ...]:
                     "less arrival_time",
                 ),
             ),
-            "epsilon",
+            EPSILON,
             NO_MOTION,
             INTEGRAL_BITS,
         ),
@@ -76,8 +84,8 @@ def _named(quantity: Quantity, name: str) -> Quantity:
 def _once(of: Definitions) -> tuple[Row, ...]:
     end, lowest = "to the end, (R, PHI) or where z = 1 again", "from the release to the lowest point"
     formulas = (
-        Row("z0", (Quantity("z0", "1", "height of the lowest point", "phi(R; z0) = PHI at the end"),), "once", ROOT),
-        Row("kappa", (Quantity("kappa", "1", "square of Bouguer's constant", of.kappa),), "once", FORMULA),
+        Row("z0", (Quantity("z0", "1", "height of the lowest point", "phi(R; z0) = PHI at the end"),), ONCE, ROOT),
+        Row("kappa", (Quantity("kappa", "1", "square of Bouguer's constant", of.kappa),), ONCE, FORMULA),
     )
     of_the_path = (
         Quantity("half_angle", "rad", f"angle {lowest}", of.half_angle),
@@ -97,17 +105,17 @@ def _once(of: Definitions) -> tuple[Row, ...]:
     )
     return (
         *formulas,
-        *(Row(quantity.name, (quantity,), "once") for quantity in of_the_path),
-        *(Row(quantity.name, (quantity,), "once", (), INTEGRAL_BITS) for quantity in of_the_chord),
+        *(Row(quantity.name, (quantity,), ONCE) for quantity in of_the_path),
+        *(Row(quantity.name, (quantity,), ONCE, (), INTEGRAL_BITS) for quantity in of_the_chord),
     )
 
 
 def _in_seconds(of: Definitions) -> tuple[Row, ...]:
     radius = Quantity("radius", "m", f"distance from the centre, {of.setting}", "r = r0 z")
     return (
-        Row("time_unit", (Quantity("time_unit", "s", "unit of tau", of.time_unit),), "once", FORMULA),
+        Row("time_unit", (Quantity("time_unit", "s", "unit of tau", of.time_unit),), ONCE, FORMULA),
         *(
-            Row(name, (Quantity(name, "s", f"{words}, {of.setting}", f"{what} {of.time_unit}"),), "once")
+            Row(name, (Quantity(name, "s", f"{words}, {of.setting}", f"{what} {of.time_unit}"),), ONCE)
             for name, what, words in (
                 ("descent_seconds", "descent_time", "time from the release to the lowest point"),
                 ("arrival_seconds", "arrival_time", "time to the end"),
@@ -116,7 +124,7 @@ def _in_seconds(of: Definitions) -> tuple[Row, ...]:
         Row(
             "si_curve",
             (radius, Quantity("seconds", "s", f"time since the release, {of.setting}", f"tau {of.time_unit}")),
-            "psi",
+            PSI,
         ),
         Row(
             "si_state",
@@ -125,7 +133,7 @@ def _in_seconds(of: Definitions) -> tuple[Row, ...]:
                 Quantity("radial_velocity", "m s-1", "rate of the distance from the centre", "dr/dt"),
                 Quantity("angle", "rad", "angle swept since the release", of.phi),
             ),
-            "time",
+            TIME,
         ),
     )
 

@@ -22,6 +22,8 @@ from __future__ import annotations
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from reference.exact import counted
+
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
@@ -56,9 +58,7 @@ def surface_coefficients(order: int) -> tuple[Fraction, ...]:
 
 
 def _checked(order: Any) -> int:
-    if isinstance(order, bool) or not isinstance(order, int) or not 1 <= order <= MAX_ORDER:
-        raise ValueError(f"order is {order!r}; an integer from 1 to {MAX_ORDER} is accepted.")
-    return order
+    return counted(order, "order", MAX_ORDER, least=1)
 
 
 def shallow(m: Any, kappa: Any, order: int) -> Limit:

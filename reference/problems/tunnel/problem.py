@@ -5,9 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, ClassVar
 
-from reference.exact import exact
+from reference.exact import exact, rational_root
 from reference.problem import APART
-from reference.problems.polar.central import BODIES, CentralBrachistochrone, rational_root
+from reference.problems.polar.bodies import body_of
+from reference.problems.polar.central import CentralBrachistochrone
 from reference.problems.tunnel.equations import UNIFORM_BALL
 from reference.problems.tunnel.hypocycloid import Hypocycloid
 from reference.problems.tunnel.quantities import ROWS
@@ -31,7 +32,8 @@ class Tunnel(CentralBrachistochrone):
         end: or the end (R, PHI): its radius over r0, 0 < R <= 1, and its angle in rad, 0 < PHI < pi.
         r0: the radius in m, for rows in m and s.
         g: gravity at the surface in m/s^2; both or neither.
-        body: instead of ``g`` the name of a body, "earth": g = G M/r0^2.
+        body: instead of ``g`` the name of a body: g = G M/r0^2, with "earth" the nominal G M = 3.986004e14 m^3/s^2 of
+            IAU 2015 Resolution B3, with "thesis-earth" the product of the thesis' G and M, which is 5.4e-6 larger.
 
     Each number is exact: a float at its binary64 value, a string or Fraction as the rational it spells.  Times are in
     units of sqrt(r0/g).  A real planet is denser inside: the uniform one is an idealisation.
@@ -53,12 +55,12 @@ class Tunnel(CentralBrachistochrone):
     extremal = Hypocycloid
 
     def __init__(self, z0: Any = None, end: Any = None, r0: Any = None, g: Any = None, body: str | None = None) -> None:
-        if body is not None and (g is not None or body not in BODIES):
-            raise ValueError(f"body is {body!r}; one of {', '.join(BODIES)} is accepted, instead of g.")
-        if (r0 is None) != (g is None and body is None):
+        known = body_of(body, g, "g")
+        if (r0 is None) != (g is None and known is None):
             raise ValueError("r0 and g, or r0 and body, are accepted together: both or neither.")
         self._set_positive("r0", r0)
-        self._set_positive("g", g if body is None else BODIES[body] / exact(r0, "r0") ** 2)
+        self._set_positive("g", g if known is None else known.value / exact(r0, "r0") ** 2)
+        object.__setattr__(self, "body", body)
         self._set_path(z0, end)
 
     def __repr__(self) -> str:
