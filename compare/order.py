@@ -10,13 +10,14 @@ from fractions import Fraction
 from math import factorial
 from typing import TYPE_CHECKING, Any
 
-from flint import arb, ctx
+from flint import arb
 
 from compare.algebraic import Algebraic, enclose
 from compare.method import Splitting, Tableau
 from compare.partitioned import Partitioned
 from compare.trees import ElementaryWeights, density, trees
 from compare.words import coefficient, lyndon_words, nystrom_words
+from reference.precision import ctx
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence

@@ -11,10 +11,11 @@ from fractions import Fraction
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
-from flint import arb, arb_mat, ctx
+from flint import arb, arb_mat
 
 from reference.arithmetic import BALL
 from reference.dual import Dual
+from reference.precision import ctx
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence

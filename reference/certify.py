@@ -13,11 +13,12 @@ from fractions import Fraction
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
-from flint import arb, ctx
+from flint import arb
 
 from reference.arithmetic import BALL
 from reference.exact import positive, spelled
 from reference.limbs import decimal, exact_decimal, interval, to_fixed, to_limbs
+from reference.precision import ctx
 from reference.routes import enclosure
 
 if TYPE_CHECKING:

@@ -8,10 +8,15 @@ from __future__ import annotations
 
 import math
 from functools import cached_property
-from typing import Any, Protocol
+from operator import mul
+from typing import TYPE_CHECKING, Any, Protocol
 
-from flint import acb, arb, arb_poly, arb_series, ctx
-from mpmath import mp
+from flint import acb, arb, arb_poly
+
+from reference.precision import mp
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
 
 __all__ = ["BallElliptic", "Elliptic", "MpmathElliptic", "sine_polynomial"]
 
@@ -72,22 +77,28 @@ class BallElliptic:
 def sine_polynomial(k: arb, width: arb, bits: int) -> arb_poly:
     """P with sn(width x) = x P(x^2) for -1 <= x <= 1, width < 1, to about ``bits`` bits; every error is in its balls.
 
-    sn inverts the elliptic integral of the first kind.  The coefficients of sn, cn and dn are at most those of tan, sec
-    and sec, which obey the same equations with k = 1 and without the signs: for |v| <= r < pi/2, |sn v| <= tan r, and
-    Cauchy's estimate bounds the rest of the series.
+    With sn = x S(x^2), cn = C(x^2) and dn = D(x^2), one coefficient after another follows from sn' = cn dn,
+    cn' = -sn dn and dn' = -k^2 sn cn.  They are at most those of tan, sec and sec, which obey the same equations with
+    k = 1 and without the signs: for |v| <= r < pi/2, |sn v| <= tan r, and Cauchy's estimate bounds the rest of the
+    series.  Not a number where width < 1 is not certain.
     """
     radius = arb(1.5)
     ratio = width / radius
-    terms = 2 * math.ceil((bits + 6) / -math.log2(float(ratio)) / 2) + 1
-    before, ctx.cap = ctx.cap, terms
-    try:
-        x, m = arb_series([0, 1]), k * k
-        sine = ((1 - x * x) * (1 - m * x * x)).rsqrt().integral().reversion()
-        odd = sine(arb_series([0, width])).coeffs()[1::2]
-    finally:
-        ctx.cap = before
-    odd[0] += arb(0, 1) * radius.tan() * ratio**terms / (1 - ratio)
+    if not (0 < width < 1 and 0 < float(ratio) < 1):
+        return arb_poly([arb.nan()])
+    sn, cn, dn = [arb(1)], [arb(1)], [arb(1)]
+    for i in range(1, math.ceil((bits + 6) / -math.log2(float(ratio)) / 2)):
+        cn.append(_convolved(sn, dn) / (-2 * i))
+        dn.append(_convolved(sn, cn[:-1]) * (k * k) / (-2 * i))
+        sn.append(_convolved(cn, dn) / (2 * i + 1))
+    odd = [value * width ** (2 * i + 1) for i, value in enumerate(sn)]
+    odd[0] += arb(0, 1) * radius.tan() * ratio ** (2 * len(odd) + 1) / (1 - ratio)
     return arb_poly(odd)
+
+
+def _convolved(a: Sequence[arb], b: Sequence[arb]) -> arb:
+    """The last coefficient that a product of two series of equally many has."""
+    return sum(map(mul, a, reversed(b)), arb(0))
 
 
 class MpmathElliptic:

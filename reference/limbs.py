@@ -11,10 +11,12 @@ from decimal import ROUND_HALF_EVEN, Context, Decimal
 from fractions import Fraction
 from typing import TYPE_CHECKING, TypeVar
 
-from flint import arb, ctx
+from reference.precision import ctx
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
+
+    from flint import arb
 
 __all__ = [
     "MAX_BITS",

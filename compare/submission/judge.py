@@ -7,7 +7,7 @@ import sys
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
-from flint import arb, ctx
+from flint import arb
 
 from compare.submission.orbit import orbits, remark
 from compare.submission.place import apart
@@ -16,6 +16,7 @@ from compare.submission.slips import exchanged, refuse_degrees
 from compare.submission.turns import Turns
 from reference.arithmetic import BALL
 from reference.names import short
+from reference.precision import ctx
 from reference.problem import Problem
 from reference.routes import enclosure
 

@@ -18,7 +18,9 @@ from __future__ import annotations
 
 from functools import cached_property
 
-from flint import acb, arb, ctx
+from flint import acb, arb
+
+from reference.precision import ctx
 
 __all__ = ["RadialOscillation"]
 

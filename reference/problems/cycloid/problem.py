@@ -8,10 +8,9 @@ from fractions import Fraction
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, ClassVar
 
-from mpmath import mp
-
 from reference.arithmetic import MPMATH, Arithmetic, CalculusArithmetic
 from reference.exact import as_number, exact
+from reference.precision import mp
 from reference.problem import APART, Row, SeparableProblem
 from reference.problems.cycloid.brachistochrone import Brachistochrone, QuadratureBrachistochrone
 from reference.problems.cycloid.equations import arc_acceleration, arc_energy

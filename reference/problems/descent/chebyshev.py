@@ -12,9 +12,8 @@ from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from typing import TYPE_CHECKING, Any
 
-from mpmath import mp
-
 from reference.arithmetic import MPMATH
+from reference.precision import mp
 from reference.problems.descent.equations import slowness
 
 if TYPE_CHECKING:

@@ -10,10 +10,11 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from flint import arb, ctx
+from flint import arb
 
 from reference.arithmetic import BALL
 from reference.elliptic import sine_polynomial
+from reference.precision import ctx
 from reference.problems.pendulum.motions import Rotation, addition
 
 if TYPE_CHECKING:

@@ -7,10 +7,9 @@ from fractions import Fraction
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, ClassVar
 
-from mpmath import mp
-
 from reference.arithmetic import MPMATH, Arithmetic, EllipticArithmetic
 from reference.exact import as_number, exact
+from reference.precision import mp
 from reference.problem import APART, Row, SeparableProblem
 from reference.problems.pendulum.motions import Rest
 from reference.problems.pendulum.quantities import LINEAR_ROWS

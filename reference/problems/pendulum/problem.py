@@ -8,12 +8,10 @@ from fractions import Fraction
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, ClassVar
 
-from flint import arb, ctx
-from mpmath import mp
-
 from reference.arithmetic import BALL, MPMATH, Arithmetic, EllipticArithmetic
 from reference.exact import as_number, exact
 from reference.limbs import ziv
+from reference.precision import ctx, mp
 from reference.problem import APART, Row, SeparableProblem
 from reference.problems.pendulum.chart import MANY, Chart, chart
 from reference.problems.pendulum.equations import angular_acceleration, energy_above_rest
@@ -24,6 +22,8 @@ from reference.problems.pendulum.taylor import TAYLOR_RADIANS, TaylorMotion
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
+
+    from flint import arb
 
     from reference.certify import Certified
     from reference.problems.pendulum.approximations import LindstedtSolution, PeriodSeries

@@ -27,9 +27,10 @@ from __future__ import annotations
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
-from flint import acb, arb, ctx
+from flint import acb, arb
 
 from reference.calculus import ball_zero, enclosed_zero
+from reference.precision import ctx
 from reference.problems.polar.equations import POINT_MASS
 from reference.problems.polar.extremal import Extremal
 from reference.problems.polar.panels import Schedule

@@ -8,11 +8,9 @@ from fractions import Fraction
 from functools import cached_property, lru_cache, partial
 from typing import TYPE_CHECKING, Any, ClassVar
 
-from flint import ctx
-from mpmath import mp
-
 from reference.arithmetic import BALL, MPMATH
 from reference.exact import as_number, exact
+from reference.precision import ctx, mp
 from reference.problem import Problem, Row
 from reference.problems.polar.boundary import end_of, exponent_near, lowest_point
 from reference.problems.polar.numerical import Numerical
