@@ -64,8 +64,9 @@ class Field:
 
 
 @lru_cache(maxsize=256)
-def _nearest_root(field: Field, _precision: int) -> arb:
-    roots = [value for value, _ in fmpz_poly(list(field.coefficients)).complex_roots() if value.imag == 0]
+def _nearest_root(field: Field, bits: int) -> arb:
+    with ctx.workprec(bits):
+        roots = [value for value, _ in fmpz_poly(list(field.coefficients)).complex_roots() if value.imag == 0]
     found: arb = min((value.real for value in roots), key=lambda value: abs(float(value) - field.near))
     return found
 

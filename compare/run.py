@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -14,6 +13,7 @@ from flint import arb
 from compare.submission.orbit import orbits
 from compare.submission.place import NOWHERE, apart
 from reference.arithmetic import BALL
+from reference.once import cached_property
 from reference.precision import ctx
 
 if TYPE_CHECKING:

@@ -7,12 +7,12 @@ cannot be had from the other without loss.
 from __future__ import annotations
 
 import math
-from functools import cached_property
 from operator import mul
 from typing import TYPE_CHECKING, Any, Protocol
 
 from flint import acb, arb, arb_poly
 
+from reference.once import cached_property
 from reference.precision import mp
 
 if TYPE_CHECKING:

@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from flint import arb
 
 __all__ = [
+    "BINARY64_BITS",
     "MAX_BITS",
     "Interval",
     "WorkBoundError",

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import cached_property, lru_cache
+from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
 from reference.arithmetic import MPMATH
+from reference.once import cached_property
 from reference.precision import mp
 from reference.problems.cycloid.equations import arc_acceleration, depth, point_from_bottom
 from reference.problems.cycloid.neighbours import slowness

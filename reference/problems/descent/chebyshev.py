@@ -9,10 +9,11 @@ are below the working precision.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property, lru_cache
+from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
 from reference.arithmetic import MPMATH
+from reference.once import cached_property
 from reference.precision import mp
 from reference.problems.descent.equations import slowness
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import cached_property
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from reference.arithmetic import NUMPY
@@ -13,6 +12,7 @@ from reference.dual import DualArithmetic
 from reference.exact import as_number, exact
 from reference.limbs import ziv
 from reference.names import short
+from reference.once import cached_property
 from reference.precision import ctx
 from reference.problem import APART, ClosedForm, Problem, Row
 from reference.problems.descent.admission import admitted

@@ -12,11 +12,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 from reference.balls import BALL
 from reference.dual import with_slope
+from reference.once import cached_property
 from reference.precision import ctx
 from reference.problems.descent.curves import CycloidByArc, FormulaCurve
 from reference.problems.descent.exactly import SURD, exactly, known

@@ -5,12 +5,12 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import cached_property
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from reference.arithmetic import BALL, MPMATH, Arithmetic, EllipticArithmetic
 from reference.exact import as_number, exact
-from reference.limbs import ziv
+from reference.limbs import BINARY64_BITS, ziv
+from reference.once import cached_property
 from reference.precision import ctx, mp
 from reference.problem import APART, Row, SeparableProblem
 from reference.problems.pendulum.chart import MANY, Chart, chart
@@ -152,7 +152,8 @@ class Pendulum(SeparableProblem):
 
     def rate(self) -> float:
         """sqrt(g/l): |d(omega')/d(theta)| <= g/l."""
-        return float(mp.sqrt(MPMATH.number(self.g / self.length)))
+        with mp.workprec(BINARY64_BITS):
+            return float(mp.sqrt(MPMATH.number(self.g / self.length)))
 
     def neighbour(self, rounding: Callable[[Fraction], Fraction], epsilon: Fraction) -> Pendulum:
         """The pendulum whose start is nearer to rest by 2^-36 of its way to 0 or pi, or by 16 roundings."""
