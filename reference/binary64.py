@@ -1,13 +1,11 @@
 """Binary64 numbers by their bits, without floating-point arithmetic.
 
-A processor can be set to take subnormal numbers, those below 2^-1022, for zero (flush-to-zero, denormals-are-zero);
-a library built with fast-math sets that for the thread that loads it.  Then 1e-310 == 0.0, its ``repr`` is "0.0", and
-``math.ldexp`` gives zero where it should give a subnormal number.  What is here is right in that mode too.
+So it is right for subnormal numbers too where the processor takes them for zero (``underflow``): there 1e-310 == 0.0,
+its ``repr`` is "0.0", and ``math.ldexp`` gives zero instead of it.
 """
 
 from __future__ import annotations
 
-import math
 import struct
 from decimal import Context, Decimal
 from fractions import Fraction
@@ -17,16 +15,13 @@ import numpy as np
 
 __all__ = [
     "BINARY64_BITS",
-    "UnderflowModeError",
     "bits_of",
     "exact_value",
     "hexadecimal",
-    "is_gradual",
     "nearest",
     "number_of",
     "parts",
     "pattern",
-    "require_gradual",
     "rounded",
     "shortest",
     "with_subnormals",
@@ -42,33 +37,8 @@ INFINITE = 0x7FF << 52
 """The bits of infinity; those of a finite number are below."""
 SIGN = 1 << 63
 LEADING = 1 << 52
-LEAST = [5e-324]
-"""The least number; in a list, so that no compiler computes with it beforehand."""
 PLACES = {np.dtype(np.float16): (10, 5), np.dtype(np.float32): (23, 8), np.dtype(np.float64): (52, 11)}
 """Bits of the significand, without the leading one, and of the exponent."""
-
-
-class UnderflowModeError(ArithmeticError):
-    """The processor takes subnormal numbers for zero."""
-
-
-def is_gradual() -> bool:
-    """Whether this thread's processor has subnormal numbers, as IEEE 754 has them."""
-    least = LEAST[0]
-    return least * 1.0 > 0.0 and math.ldexp(2.0**52, MIN_EXPONENT) * 0.5 > 0.0
-
-
-def require_gradual(what: str) -> None:
-    """Refuse to go on where floats decide and the processor takes some of them for zero.
-
-    Raises:
-        UnderflowModeError: it does.
-    """
-    if not is_gradual():
-        raise UnderflowModeError(
-            f"{what} needs subnormal numbers, which the processor takes for zero: a library built with fast-math has "
-            "set that for this thread; a thread or process in which it is not set is accepted."
-        )
 
 
 def rounded(mantissa: int, exponent: int, bits: int, min_exponent: int | None = None) -> tuple[int, int]:

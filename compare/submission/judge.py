@@ -19,6 +19,7 @@ from reference.names import short
 from reference.precision import ctx
 from reference.problem import Problem
 from reference.routes import enclosure
+from reference.underflow import require_gradual
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
@@ -54,6 +55,7 @@ class Judge:
             raise TypeError(
                 f"problem is {problem!r}; a problem with a state in time, such as Pendulum(1.0), is accepted."
             )
+        require_gradual("a score")
         self.problem = problem
         self.time = _time(problem)
         self.held = 0.0
