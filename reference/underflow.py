@@ -6,10 +6,12 @@ the thread that loads it and for those that this one starts.
 
 from __future__ import annotations
 
+import struct
+
 __all__ = ["UnderflowModeError", "is_gradual", "require_gradual"]
 
-LEAST = [5e-324, 2.0**-1022, 0.5]
-"""The least number and the least normal one; in a list, so that no compiler computes with them beforehand."""
+LEAST, NORMAL = struct.unpack("<2d", struct.pack("<2Q", 1, 1 << 52))
+"""The least number and the least normal one, by their bits: a literal is read as zero in that mode."""
 
 
 class UnderflowModeError(ArithmeticError):
@@ -18,8 +20,7 @@ class UnderflowModeError(ArithmeticError):
 
 def is_gradual() -> bool:
     """Whether this thread's processor has them: as they come in, and as they go out."""
-    least, normal, half = LEAST
-    return least > 0.0 and (normal * half) * 2.0 == normal
+    return bool(LEAST > 0.0 and NORMAL / 2.0 * 2.0 == NORMAL)
 
 
 def require_gradual(what: str) -> None:

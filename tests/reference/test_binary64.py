@@ -44,7 +44,7 @@ def test_a_number_is_spelt_as_python_spells_it():
     assert [hexadecimal(value) for value in NUMBERS] == [value.hex() for value in NUMBERS]
 
 
-@pytest.mark.parametrize("shift", [-1080, -1074, -1060, -1030, -1022, -500, 0, 900, 970])
+@pytest.mark.parametrize("shift", [-1080, -1074, -1060, -1030, -1022, -500, 0, 900])
 def test_a_quotient_is_rounded_as_python_rounds_it(shift):
     source = random.Random(shift)
     for _ in range(300):

@@ -49,7 +49,7 @@ def bits(values) -> list[int]:
 def in_the_mode(code: str, *, mode: bool = True, folder: Path | None = None):
     """What ``answer`` is after the code, run in a process of its own with the mode set, or not."""
     done = subprocess.run(
-        [sys.executable, __file__, "mode" if mode else "none"],
+        [sys.executable, "-B", __file__, "mode" if mode else "none"],
         input=code,
         capture_output=True,
         text=True,
@@ -57,8 +57,13 @@ def in_the_mode(code: str, *, mode: bool = True, folder: Path | None = None):
         env={"PYTHONPATH": f"{ROOT}:{ROOT / 'tests' / 'reference'}"},
         check=False,
     )
-    assert done.returncode == 0, done.stderr
+    assert done.returncode == 0, done.stderr  # -B: bytecode with literals read as zero would outlive the process
     return json.loads(done.stdout.splitlines()[-1])
+
+
+def of_bits(whole: list[int], kind: str) -> np.ndarray:
+    """An array of floats by their bits."""
+    return np.array(whole, dtype=f"u{np.dtype(kind).itemsize}").view(kind)
 
 
 def tails(count: int, seed: int = 5) -> list[list[int]]:
@@ -76,10 +81,11 @@ def tails(count: int, seed: int = 5) -> list[list[int]]:
 
 def main() -> None:
     """Set the mode, run what comes in and print its answer."""
+    code = compile(sys.stdin.read(), "asked", "exec")  # its literals are read before the mode is set
     if sys.argv[1] == "mode":
         set_mode()
-    known: dict[str, object] = {"bits": bits, "tails": tails}
-    exec(sys.stdin.read(), known)  # noqa: S102 - a test's own code
+    known: dict[str, object] = {"bits": bits, "of_bits": of_bits, "tails": tails}
+    exec(code, known)  # noqa: S102 - a test's own code
     print(json.dumps(known["answer"]))  # noqa: T201
 
 
