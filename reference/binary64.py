@@ -35,6 +35,9 @@ BIAS = 1075
 """m 2^e of a normal number, 2^52 <= m < 2^53, is stored with the exponent e + BIAS."""
 INFINITE = 0x7FF << 52
 """The bits of infinity; those of a finite number are below."""
+NORMAL = 2.0**-1022
+"""From here on numbers are normal, and all arithmetic on them is as always."""
+NORMAL_EXPONENTS = 1000
 SIGN = 1 << 63
 LEADING = 1 << 52
 PLACES = {np.dtype(np.float16): (10, 5), np.dtype(np.float32): (23, 8), np.dtype(np.float64): (52, 11)}
@@ -93,6 +96,8 @@ def parts(bits: int) -> tuple[int, int]:
 def nearest(value: Fraction) -> float:
     """An exact rational correctly rounded to binary64; infinite where it is beyond the range."""
     top, bottom = value.numerator, value.denominator
+    if abs(top.bit_length() - bottom.bit_length()) < NORMAL_EXPONENTS:
+        return top / bottom  # Python rounds the quotient of two integers correctly
     shift = max(0, BINARY64_BITS + 2 - top.bit_length() + bottom.bit_length())
     quotient, rest = divmod(abs(top) << shift, bottom)
     quotient = 2 * quotient + bool(rest)  # what is left of the quotient only breaks ties
@@ -101,6 +106,8 @@ def nearest(value: Fraction) -> float:
 
 def exact_value(value: Any) -> Fraction:
     """A finite float of Python's or NumPy's as the rational it is."""
+    if isinstance(value, float) and abs(value) >= NORMAL:
+        return Fraction(*value.as_integer_ratio())
     dtype = np.dtype(type(value)) if isinstance(value, np.floating) else np.dtype(np.float64)
     if dtype not in PLACES:
         return Fraction(*(int(part) for part in value.as_integer_ratio()))

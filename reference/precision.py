@@ -31,21 +31,30 @@ class _Lock:
     """A lock that a thread may take again, which a forked process finds free or in the hands of its only thread."""
 
     def __init__(self) -> None:
-        self._lock, self._depth, self._owner = threading.RLock(), 0, 0
+        self.lock, self._depth, self._owner = threading.RLock(), 0, 0
         self._before: tuple[int, int, int] | None = None
         if hasattr(os, "register_at_fork"):
             os.register_at_fork(after_in_child=self._alone)
 
     @contextmanager
     def held(self) -> Iterator[None]:
-        with self._lock:
-            if not self._depth:
-                self._before, self._owner = _in_force(), threading.get_ident()
-            self._depth += 1
+        """Take it for the length of a block."""
+        with self.lock:
+            self.enter()
             try:
                 yield
             finally:
-                self._depth -= 1
+                self.leave()
+
+    def enter(self) -> None:
+        """Note who took ``lock``, and what was in force before."""
+        if not self._depth:
+            self._before, self._owner = _in_force(), threading.get_ident()
+        self._depth += 1
+
+    def leave(self) -> None:
+        """Note that one block less is open."""
+        self._depth -= 1
 
     @property
     def mine(self) -> bool:
@@ -54,11 +63,12 @@ class _Lock:
 
     def _alone(self) -> None:
         """In a forked process: the thread that held the lock is not there to put the contexts back."""
-        if self._depth and not self.mine:
-            self._lock, self._depth = threading.RLock(), 0
-            if self._before is not None:
-                flint.ctx.prec, flint.ctx.cap, bits = self._before
-                mp._set_prec(bits)  # noqa: SLF001 - as it was, and by no thread that works
+        if self.mine:
+            return
+        if self._depth and self._before is not None:
+            flint.ctx.prec, flint.ctx.cap, bits = self._before
+            mp._set_prec(bits)  # noqa: SLF001 - as it was, and by no thread that works
+        self.lock, self._depth = threading.RLock(), 0
 
 
 def _in_force() -> tuple[int, int, int]:
@@ -81,13 +91,15 @@ class BallContext:
     @contextmanager
     def workprec(self, bits: int) -> Iterator[None]:
         """Balls are rounded to this many bits."""
-        with held():
+        with _LOCK.lock:
+            _LOCK.enter()
             before = flint.ctx.prec
             flint.ctx.prec = bits
             try:
                 yield
             finally:
                 flint.ctx.prec = before
+                _LOCK.leave()
 
     @contextmanager
     def worklength(self, terms: int) -> Iterator[None]:
