@@ -10,14 +10,15 @@ import functools
 import math
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
-from flint import arb, ctx
+from flint import arb
 
 from reference.arithmetic import BALL
 from reference.exact import counted, positive, spelled
 from reference.limbs import MAX_DIGITS, MAX_LIMBS, decimal, exact_decimal, interval, to_fixed, to_limbs
+from reference.once import cached_property
+from reference.precision import ctx
 from reference.routes import enclosure
 
 if TYPE_CHECKING:

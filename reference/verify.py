@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from reference.binary64 import shortest
 from reference.blocks import LIMBS, START_BITS, compare, decimals, prove
 from reference.certify import ROUTES, DisagreementError
 from reference.claims import decimal_fault, measurement_fault
@@ -141,21 +142,29 @@ def _compare(dataset: Dataset, block: Block, limbs: np.ndarray, proofs: dict[tup
         value, tail = dataset[proof.name].read(block.selection(component))
         stored = np.concatenate([np.reshape(value, (-1, 1)), np.reshape(tail, (-1, LIMBS - 1))], axis=1)
         proven = limbs[:, component.component]
-        differing = np.flatnonzero(_different(stored, proven, either_sign=either_sign).any(axis=1))
+        differing = np.flatnonzero((_bits(stored, either_sign) != _bits(proven, either_sign)).any(axis=1))
         proof.elements += len(proven)
         proof.wrong += differing.size
         if differing.size and not proof.first:
             i = int(differing[0])
             proof.first = (
-                f"element {(block.element, block.start + i)} is stored as {stored[i].tolist()} "
-                f"and proven to be {proven[i].tolist()}"
+                f"element {(block.element, block.start + i)} is stored as {_spelled(stored[i])} "
+                f"and proven to be {_spelled(proven[i])}"
             )
 
 
-def _different(stored: np.ndarray, proven: np.ndarray, *, either_sign: bool) -> np.ndarray:
-    """Where two float64 arrays differ in a bit; zeros of ``either_sign`` may be equal."""
-    differing: np.ndarray = stored != proven if either_sign else stored.view(np.uint64) != proven.view(np.uint64)
-    return differing
+NEGATIVE_ZERO = -(1 << 63)
+"""The bits of -0.0 as an int64."""
+
+
+def _bits(limbs: np.ndarray, either_sign: bool) -> np.ndarray:
+    """Limbs by their bits, as every processor tells these apart; with ``either_sign`` -0.0 counts as 0.0."""
+    bits: np.ndarray = np.ascontiguousarray(limbs, dtype=np.float64).view(np.int64)
+    return np.where(bits == NEGATIVE_ZERO, 0, bits) if either_sign else bits
+
+
+def _spelled(limbs: np.ndarray) -> str:
+    return f"[{', '.join(map(shortest, limbs.tolist()))}]"
 
 
 def _sample(groups: list[Group]) -> Iterator[Block]:

@@ -10,7 +10,6 @@ from fractions import Fraction
 from pathlib import Path
 
 import pytest
-from mpmath import mp
 
 from compare.__main__ import main
 from compare.errata import show
@@ -23,6 +22,7 @@ from compare.errata.noticed import NOTICED
 from compare.errata.report_series import BETA, BETA_PRINTED, PHI_B, PHI_B_PRINTED, PHI_C, PHI_C_PRINTED
 from compare.errata.sound import SOUND
 from compare.errata.spelled import spelled
+from reference.precision import mp
 from reference.problems.descent import Descent
 from reference.problems.pendulum import Pendulum
 

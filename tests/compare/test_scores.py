@@ -9,13 +9,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 import pytest
 from made_study import made_case, made_cell
-from mpmath import mp
 
 from compare.march import march
 from compare.methods import find
 from compare.precision import precision
 from compare.scores import Course, fit_order, score_errors, score_method, slope_with_interval, student_95
 from reference import Pendulum
+from reference.precision import mp
 from reference.problems.cycloid import CycloidalPendulum
 
 if TYPE_CHECKING:

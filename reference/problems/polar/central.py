@@ -6,15 +6,15 @@ import math
 from dataclasses import dataclass, replace
 from dataclasses import field as known_as
 from fractions import Fraction
-from functools import cached_property, lru_cache, partial
+from functools import lru_cache, partial
 from typing import TYPE_CHECKING, Any, ClassVar
-
-from flint import ctx
-from mpmath import mp
 
 from reference.arithmetic import BALL, MPMATH
 from reference.exact import as_number, exact, exact_array, rational_root
+from reference.limbs import BINARY64_BITS
 from reference.names import said
+from reference.once import cached_property
+from reference.precision import ctx, mp
 from reference.problem import Problem, Row
 from reference.problems.polar.bodies import BODIES
 from reference.problems.polar.boundary import Reached, end_of, exponent_near, lowest_point
@@ -170,7 +170,8 @@ class CentralBrachistochrone(Problem):
 
     def rate(self) -> float:
         """The root of a bound on |dz''/dz| along the path."""
-        return float(mp.sqrt(MPMATH.number(self.field.rate_squared(self._lowest()))))
+        with mp.workprec(BINARY64_BITS):
+            return float(mp.sqrt(MPMATH.number(self.field.rate_squared(self._lowest()))))
 
     def closed_form(self, m: Any) -> Extremal:
         """The closed form in balls; in mpmath the form by numerical integration."""
