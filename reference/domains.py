@@ -24,7 +24,6 @@ if TYPE_CHECKING:
 __all__ = ["OutsideDomainError", "real"]
 
 
-
 class OutsideDomainError(ArithmeticError):
     """A part of a formula has no value, or was not proven to have one, at a ball.
 
@@ -96,16 +95,18 @@ def real(formula: Expression, x: arb | None = None) -> arb:
 
 
 def _checked(term: Term, x: arb | None, values: list[arb], *, constant: bool) -> arb:
-    domain, shown = _domain(term), short(term.text)
+    domain = _domain(term)
     if domain is not None and not domain.inside(values[-1]):
         argument = values[-1]
         certain = bool(domain.outside(argument))
         what = _shown(argument) if certain else f"a number that is not proven to be {domain.words}"
         pole = domain in {DIVISOR, FUNCTIONS["tan"]}
-        raise OutsideDomainError(f"'{shown}' is {domain.of} {what}", certain=certain, constant=constant, pole=pole)
+        raise OutsideDomainError(
+            f"'{short(term.text)}' is {domain.of} {what}", certain=certain, constant=constant, pole=pole
+        )
     value: arb = term.of(BALL, x, *values)
     if not value.is_finite():
-        why = f"'{shown}' is a number that is not proven to be finite"
+        why = f"'{short(term.text)}' is a number that is not proven to be finite"
         raise OutsideDomainError(why, certain=False, constant=constant, pole=False)
     return value
 

@@ -47,11 +47,13 @@ def admitted(curve: Curve, released: Fraction) -> Slide:
         doubt = _check_formulas(curve, released) if isinstance(curve, FormulaCurve) else None
         _check_ends(curve, released)
         slide = Slide(curve, released, _order(curve, released))
+        if doubt is not None and doubt.pole:
+            raise _doubtful(curve, doubt)
         _check_way(slide)
         try:
             pieces(slide, "slowness")
         except NoChartError as failure:
-            raise (_doubtful(curve, doubt) if doubt is not None and doubt.pole else _without_chart(slide, failure)) from None
+            raise _without_chart(slide, failure) from None
         if doubt is not None:
             raise _doubtful(curve, doubt)
     return slide
@@ -65,8 +67,7 @@ def _at(curve: Curve, w: Fraction, radius: Fraction = Fraction(0)) -> tuple[arb,
     """The height, its slope and N around w; not numbers where the curve is not analytic or not real."""
     place = acb(arb(BALL.number(w), BALL.number(radius)))
     height, slope, arc_square = (
-        acb(value).real if acb(value).imag.contains(0) else arb.nan()
-        for value in curve.profile(ANALYTIC, place)
+        acb(value).real if acb(value).imag.contains(0) else arb.nan() for value in curve.profile(ANALYTIC, place)
     )
     return height, slope, arc_square
 
@@ -153,8 +154,8 @@ def _without_chart(slide: Slide, failure: NoChartError) -> ValueError:
     if isinstance(failure, ChartWorkError):
         return _refusal(
             slide.curve,
-            f"is too much work from {place} on: it was not cut into pieces on which its motion is proven analytic with "
-            f"{MAX_DISCS} trials and {MAX_OPERATIONS} operations; a shorter way, fewer bends or a simpler formula is accepted",
+            f"could not be proven to be smooth from {place} on within the bounds on the work, {MAX_DISCS} pieces tried "
+            f"and {MAX_OPERATIONS} operations; a shorter way, fewer bends or a shorter formula is accepted",
         )
     return _refusal(slide.curve, _failing(slide, w, place))
 
@@ -170,6 +171,11 @@ def _failing(slide: Slide, w: Fraction, place: str) -> str:
         return f"comes up to the level of its start near {place}, where a body from rest comes to rest"
     if not arc_square > 0:
         return f"has a cusp or a parameter that stands still (x' = y' = 0) near {place}"
+    if w == slide.released or (w - slide.released) * 2**MAX_DEPTH < 1 - slide.released:
+        return (
+            f"bends at its start within less than 2^-{(3 - slide.order) * MAX_DEPTH} of its way, so small is its slope "
+            "beside its curvature there; a steeper start is accepted"
+        )
     return (
         f"has a pole near {place} or bends there within less than 2^-{MAX_DEPTH} of its way; "
         f"a curve that bends less sharply is accepted"

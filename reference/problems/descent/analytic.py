@@ -18,7 +18,7 @@ __all__ = ["ANALYTIC"]
 
 
 class AnalyticBall:
-    """Arb's complex balls where functions are analytic, no numbers elsewhere; what is given as a real ball stays one."""
+    """Arb's complex balls where functions are analytic, no numbers elsewhere; a real ball stays one."""
 
     def __init__(self) -> None:
         self._complex = ComplexBall(analytic=True)

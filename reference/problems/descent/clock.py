@@ -21,7 +21,7 @@ from reference.problems.descent.analytic import ANALYTIC
 from reference.problems.descent.centred import centred
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Sequence
 
     from reference.problems.descent.slide import Slide
 
@@ -33,14 +33,16 @@ OVERLAP = Fraction(5, 4)
 CHART_BITS = 64
 MAX_BOXES = 64
 """Complex balls in which a disc is covered, before it is cut."""
-MAX_SHARPENED = 5
+MAX_CUTS = 4
 """How often the squares that cover a disc are cut in four, before it is cut."""
 MAX_DEPTH = 40
 MAX_DISCS = 2500
 """Discs that are tried for one curve."""
-MAX_OPERATIONS = 1_500_000
+MAX_OPERATIONS = 2_000_000
 """Terms of the curve's formulas that are evaluated in complex balls for one curve."""
 CENTRED_COST = 4
+Way = tuple[int, "Callable[[Any, acb], Any]"]
+"""What an evaluation of the integrand costs, and the integrand."""
 
 
 class NoChartError(ArithmeticError):
@@ -103,7 +105,7 @@ class _Cover:
     """Covers discs with squares on which an integrand is analytic, and counts the work."""
 
     def __init__(self, slide: Slide, of: str) -> None:
-        self._ways: list[tuple[int, Callable[[Any, acb], Any]]] = [(slide.curve.size, getattr(slide, of))]
+        self._ways: list[Way] = [(slide.curve.size, getattr(slide, of))]
         sharper = centred(slide)
         if sharper is not None:
             self._ways.append((CENTRED_COST * slide.curve.size, getattr(sharper, of)))
@@ -113,28 +115,29 @@ class _Cover:
         """A bound of the integrand, real on the real axis, on a disc on which it is proven to be analytic.
 
         The half of the disc above the real axis is covered with squares, cut in four until the integrand is analytic on
-        each of them; None where that takes too much.
+        each of them; None where that takes too much.  The largest squares are tried with sharper enclosures too.
         """
         largest, half = arb(0), reach / 2
-        squares, seen = [(centre - half, half, half), (centre + half, half, half)], 0
+        squares, seen = [(centre - half, half, half, 0), (centre + half, half, half, 0)], 0
         while squares:
-            x, y, half = squares.pop()
+            x, y, half, cuts = squares.pop()
             if _beyond(abs(x - centre) - half, y - half, reach):
                 continue
             seen += 1
-            value = self._size(acb(arb(BALL.number(x), BALL.number(half)), arb(BALL.number(y), BALL.number(half))))
+            square = acb(arb(BALL.number(x), BALL.number(half)), arb(BALL.number(y), BALL.number(half)))
+            value = self._size(square, self._ways[: 1 if cuts else 2])
             if value is not None:
                 largest = arb.max(largest, value)
-            elif seen + len(squares) > MAX_BOXES or half * 2 ** (MAX_SHARPENED + 1) <= reach:
+            elif seen + len(squares) > MAX_BOXES or cuts == MAX_CUTS:
                 return None
             else:
                 half /= 2
-                squares += [(x + i * half, y + j * half, half) for i in (-1, 1) for j in (-1, 1)]
+                squares += [(x + i * half, y + j * half, half, cuts + 1) for i in (-1, 1) for j in (-1, 1)]
         return largest.upper()
 
-    def _size(self, square: acb) -> arb | None:
+    def _size(self, square: acb, ways: Sequence[Way]) -> arb | None:
         """A bound on a square; None if the integrand is not proven to be analytic there."""
-        for cost, function in self._ways:
+        for cost, function in ways:
             self.operations += cost
             value = acb(function(ANALYTIC, square))
             if value.is_finite():
