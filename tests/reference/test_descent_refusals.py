@@ -7,7 +7,9 @@ from fractions import Fraction
 
 import pytest
 
+from reference.__main__ import main
 from reference.problems.descent import Descent
+from reference.terminal import run
 
 VERTICAL = "a curve that is vertical there is accepted by a parameter, 'x = ...; y = ...'."
 REFUSED = {
@@ -47,11 +49,11 @@ REFUSED = {
         "near x = 1.5708: 'tan(x)' is the tangent of a number that is not proven to be away from its poles;",
     ),
     "a gap that is filled": ("sin(x)/x - x", 0, 1, "at x = 0: 'sin(x)/x' is a division by 0;"),
-    "a pole in the complex plane near the way": (
-        "-x - 5e-25/((x - 1/3)**2 + 5e-25)",
+    "a turn that is too sharp": (
+        "-x - 1e-21/((x - 1/3)**2 + 1e-20)",
         0,
         1,
-        "has a pole near x = 0.3333",
+        "has a pole near x = 0.333333 or bends there within less than 2^-40 of its way;",
     ),
     "a logarithm to its end": ("log(x)", 1, 0, "is not real and finite at x = 0: 'log(x)' is the logarithm of 0;"),
     "a start that bends at once": (
@@ -151,3 +153,30 @@ def test_a_place_outside_of_the_way_is_refused():
         Descent("line").along("passage", 1.5)
     with pytest.raises(ValueError, match=r"a fraction of the way from 0\.5 to 1 is accepted\.$"):
         Descent("line", released=0.5).along("passage", 0.25)
+
+
+@pytest.mark.parametrize("formula", ["-x**2", "-x", "-pi*x", "-(x)"])
+def test_a_formula_that_begins_with_a_minus_is_taken_after_an_equals_sign(formula, capsys):
+    """As an option's own word it is refused with the way to write it; -2*x begins as a number, and is taken."""
+    ends = ["--start", "1", "--end", "2", "--digits", "5"]
+    assert run(main, ["at", "descent", "--curve", formula, *ends]) == 2
+    assert capsys.readouterr().err.endswith("; a value that begins with a minus is written --OPTION=VALUE.\n")
+    assert run(main, ["at", "descent", f"--curve={formula}", *ends]) == 0
+    assert f"curve = {formula}\n" in capsys.readouterr().out
+    assert run(main, ["at", "descent", "--curve", "-2*x", *ends]) == 0
+
+
+@pytest.mark.parametrize(
+    ("words", "why"),
+    [
+        (["--curve", "x+acos(2)", "--start", "1", "--end", "0"], "is not real and finite: 'acos(2)' is the arc cosine"),
+        (["--curve", "x", "--start", "acos(2)", "--end", "0"], "does not start at a finite real number: 'acos(2)' is"),
+        (["--curve", "x" + "+x" * 50_000, "--start", "1", "--end", "0"], "has 100001 characters; at most 1000 are"),
+    ],
+)
+def test_what_is_refused_is_refused_at_the_command_line_in_one_sentence(words, why, capsys):
+    assert run(main, ["at", "descent", *words]) == 2
+    printed = capsys.readouterr()
+    assert why in printed.err
+    assert printed.err.count("\n") == 1
+    assert not printed.out

@@ -32,8 +32,8 @@ BITS = 256
 SAMPLES = 256
 REAL = "a curve that is real and finite on all of its way is accepted"
 BY_PARAMETER = "a curve that is vertical there is accepted by a parameter, 'x = ...; y = ...'"
-NEAR = Fraction(1, 10**9)
-"""How far around a place where a curve fails it is looked at to find out why."""
+NEAR = Fraction(8, 2**MAX_DEPTH)
+"""How far around a place where a curve fails, as a part of its way, it is looked at to find out why."""
 
 
 @lru_cache(maxsize=256)
@@ -65,11 +65,15 @@ def _refusal(curve: Curve, why: str) -> ValueError:
 
 def _at(curve: Curve, w: Fraction, radius: Fraction = Fraction(0)) -> tuple[arb, arb, arb]:
     """The height, its slope and N around w; not numbers where the curve is not analytic or not real."""
-    place = acb(arb(BALL.number(w), BALL.number(radius)))
+    place = _around(w, radius)
     height, slope, arc_square = (
         acb(value).real if acb(value).imag.contains(0) else arb.nan() for value in curve.profile(ANALYTIC, place)
     )
     return height, slope, arc_square
+
+
+def _around(w: Fraction, radius: Fraction) -> acb:
+    return acb(arb(BALL.number(w), BALL.number(radius)))
 
 
 def _check_formulas(curve: FormulaCurve, released: Fraction) -> Unreal | None:
@@ -162,14 +166,16 @@ def _without_chart(slide: Slide, failure: NoChartError) -> ValueError:
 
 def _failing(slide: Slide, w: Fraction, place: str) -> str:
     """Why there is no chart around the place w, however short its pieces."""
+    radius = min(NEAR * (1 - slide.released), (w - slide.released) / 8)
     with ctx.workprec(BITS):
         top, *_ = _at(slide.curve, slide.released)
-        height, slope, arc_square = _at(slide.curve, w, NEAR * (w - slide.released))
+        height, slope, arc_square = _at(slide.curve, w, radius)
+        still = all(acb(one).contains(0) for one in slide.curve.slopes(ANALYTIC, _around(w, radius)))
     if not (height.is_finite() and slope.is_finite() and arc_square.is_finite()):
         return f"is not real and analytic with a finite slope near {place}; {BY_PARAMETER}"
     if not top > height:
         return f"comes up to the level of its start near {place}, where a body from rest comes to rest"
-    if not arc_square > 0:
+    if still:
         return f"has a cusp or a parameter that stands still (x' = y' = 0) near {place}"
     if w == slide.released or (w - slide.released) * 2**MAX_DEPTH < 1 - slide.released:
         return (
