@@ -4,7 +4,7 @@
 
 is the formula's value in the arithmetic ``m``.  Accepted are numbers, taken exactly as they are written, pi, one
 variable, + - * / **, brackets and the functions of FUNCTIONS; a power is a rational number.  Python's own parser reads
-the text, and nothing of what it read is ever run.
+the text, and nothing of what it read is ever run.  Where a formula is a real number, ``domains`` proves.
 """
 
 from __future__ import annotations
@@ -14,118 +14,27 @@ import operator
 import warnings
 from dataclasses import dataclass, field
 from fractions import Fraction
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Any
 
 from reference.exact import as_number, exact, spelled
 from reference.names import short, unknown
+from reference.terms import Function, Negative, Number, Operation, Pi, Power, Term, Variable
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from reference.arithmetic import ElementaryArithmetic
 
-__all__ = ["FUNCTIONS", "Expression"]
+__all__ = ["FUNCTIONS", "MAX_LENGTH", "Expression"]
 
 FUNCTIONS = ("sqrt", "exp", "log", "sin", "cos", "tan", "asin", "acos", "atan", "sinh", "cosh", "tanh")
 MAX_LENGTH = 1000
 MAX_DEPTH = 100
+"""How deep brackets, functions, powers and signs may be nested; a long sum or product is not deep."""
 MAX_POWER = 100
 """The largest numerator and denominator of a power."""
 MAX_BITS = 20_000
 """The size of a numerator or denominator that arithmetic with the formula's numbers may come to."""
-
-
-class Node(Protocol):
-    """A part of a formula: ``at(m, x)`` is its value in the arithmetic m where the variable has the value x."""
-
-    def at(self, m: ElementaryArithmetic, x: Any) -> Any: ...
-
-
-@dataclass(frozen=True)
-class Number:
-    """An exact rational."""
-
-    value: Fraction
-
-    def at(self, m: ElementaryArithmetic, x: Any) -> Any:
-        del x
-        return m.number(self.value)
-
-
-@dataclass(frozen=True)
-class Pi:
-    """The circle number."""
-
-    def at(self, m: ElementaryArithmetic, x: Any) -> Any:
-        del x
-        return m.pi()
-
-
-@dataclass(frozen=True)
-class Variable:
-    """What the formula is a function of."""
-
-    def at(self, m: ElementaryArithmetic, x: Any) -> Any:
-        del m
-        return x
-
-
-@dataclass(frozen=True)
-class Negative:
-    """- operand"""
-
-    operand: Node
-
-    def at(self, m: ElementaryArithmetic, x: Any) -> Any:
-        return -self.operand.at(m, x)
-
-
-@dataclass(frozen=True)
-class Operation:
-    """Left and right, joined by +, -, * or /."""
-
-    join: Callable[[Any, Any], Any]
-    left: Node
-    right: Node
-
-    def at(self, m: ElementaryArithmetic, x: Any) -> Any:
-        return self.join(self.left.at(m, x), self.right.at(m, x))
-
-
-@dataclass(frozen=True)
-class Power:
-    """base ** exponent, with a whole or a rational exponent other than zero."""
-
-    base: Node
-    exponent: Fraction
-
-    def at(self, m: ElementaryArithmetic, x: Any) -> Any:
-        base, count = self.base.at(m, x), abs(self.exponent.numerator)
-        if self.exponent.denominator > 2:
-            return m.power(base, self.exponent)
-        if self.exponent.denominator == 2:
-            base = m.sqrt(base)
-        raised = _raised(base, count)
-        return raised if self.exponent > 0 else 1 / raised
-
-
-def _raised(base: Any, count: int) -> Any:
-    """base ** count by products, which balls around zero take too."""
-    half = base if count < 2 else _raised(base, count // 2)
-    square = base if count < 2 else half * half
-    return square * base if count > 1 and count % 2 else square
-
-
-@dataclass(frozen=True)
-class Function:
-    """A named function of an argument."""
-
-    name: str
-    argument: Node
-
-    def at(self, m: ElementaryArithmetic, x: Any) -> Any:
-        return getattr(m, self.name)(self.argument.at(m, x))
-
 
 JOINS: dict[type[ast.operator], Callable[[Any, Any], Any]] = {
     ast.Add: operator.add,
@@ -133,6 +42,7 @@ JOINS: dict[type[ast.operator], Callable[[Any, Any], Any]] = {
     ast.Mult: operator.mul,
     ast.Div: operator.truediv,
 }
+Terms = tuple[Term, ...]
 
 
 @dataclass(frozen=True, repr=False)
@@ -141,11 +51,11 @@ class Expression:
 
     Attributes:
         text: as it was written; it reads back as the same formula.
-        root: what it was parsed into.
+        terms: what it is computed by, one after another.
     """
 
     text: str = field(compare=False)
-    root: Node
+    terms: Terms
 
     @classmethod
     def parse(cls, text: str, variable: str = "", what: str = "formula") -> Expression:
@@ -154,7 +64,7 @@ class Expression:
         Raises:
             ValueError: it is no formula of this variable; ``what`` names it in the message.
         """
-        return cls(text.strip(), _Reader(text.strip(), variable, what).node())
+        return cls(text.strip(), _Reader(text.strip(), variable, what).terms())
 
     @classmethod
     def constant(cls, value: Any, what: str = "value") -> Expression:
@@ -167,15 +77,25 @@ class Expression:
         if isinstance(value, str):
             return cls.parse(value, what=what)
         number = exact(value, what)
-        return cls(spelled(number), Number(number))
+        return cls(spelled(number), (Number(spelled(number), number),))
 
     def __repr__(self) -> str:
         """As an argument is written: a number where it is one, else the text."""
-        return repr(as_number(self.root.value) if isinstance(self.root, Number) else self.text)
+        number = _number(self.terms)
+        return repr(self.text if number is None else as_number(number))
 
     def __call__(self, m: ElementaryArithmetic, x: Any = None) -> Any:
         """The value in an arithmetic, where the variable has the value ``x``."""
-        return self.root.at(m, x)
+        values: list[Any] = []
+        for term in self.terms:
+            count = len(values) - term.arity
+            values[count:] = [term.of(m, x, *values[count:])]
+        return values[0]
+
+
+def _number(terms: Terms) -> Fraction | None:
+    """The rational that the terms are, if they are nothing but that."""
+    return terms[0].value if len(terms) == 1 and isinstance(terms[0], Number) else None
 
 
 class _Reader:
@@ -184,84 +104,105 @@ class _Reader:
     def __init__(self, text: str, variable: str, what: str) -> None:
         self._text, self._variable, self._what = text, variable, what
 
-    def node(self) -> Node:
+    def terms(self) -> Terms:
         if len(self._text) > MAX_LENGTH:
             raise self._refusal(f"has {len(self._text)} characters; at most {MAX_LENGTH} are accepted")
         try:
             with warnings.catch_warnings():
                 warnings.simplefilter("error")
                 tree = ast.parse(self._text, mode="eval").body
-        except (SyntaxError, ValueError, RecursionError, MemoryError):
+        except (RecursionError, MemoryError):
+            raise self._too_deep() from None
+        except (SyntaxError, ValueError) as error:
+            if "too many nested" in str(error):
+                raise self._too_deep() from None
             raise self._refusal("is no formula: it has a mistake in its syntax") from None
         return self._read(tree, 0)
 
     def _refusal(self, why: str) -> ValueError:
         return ValueError(f"{self._what} '{short(self._text)}' {why}.")
 
-    def _read(self, tree: ast.expr, depth: int) -> Node:
+    def _too_deep(self) -> ValueError:
+        return self._refusal(f"is nested more than {MAX_DEPTH} deep")
+
+    def _spelled(self, tree: ast.expr) -> str:
+        return ast.get_source_segment(self._text, tree) or self._text
+
+    def _read(self, tree: ast.expr, depth: int) -> Terms:
+        """The terms of a tree; down the left of a sum or a product, which may be long, without a call for each."""
+        rest: list[ast.BinOp] = []
+        while isinstance(tree, ast.BinOp) and type(tree.op) in JOINS:
+            rest.append(tree)
+            tree = tree.left
+        found = self._operand(tree, depth)
+        for joined in reversed(rest):
+            found = self._joined(joined, found, self._read(joined.right, depth + 1))
+        return found
+
+    def _operand(self, tree: ast.expr, depth: int) -> Terms:
         if depth > MAX_DEPTH:
-            raise self._refusal(f"is nested more than {MAX_DEPTH} deep")
+            raise self._too_deep()
         match tree:
             case ast.Constant(value=int() | float()) if not isinstance(tree.value, bool):
-                return Number(exact(ast.get_source_segment(self._text, tree), f"a number of {self._what}"))
+                text = self._spelled(tree)
+                return (Number(text, exact(text, f"a number of {self._what}")),)
             case ast.Name(id=name):
-                return self._name(name)
+                return (self._name(name),)
             case ast.UnaryOp(op=ast.UAdd() | ast.USub()):
                 operand = self._read(tree.operand, depth + 1)
-                return operand if isinstance(tree.op, ast.UAdd) else self._negative(operand)
-            case ast.BinOp(op=ast.Pow() | ast.Add() | ast.Sub() | ast.Mult() | ast.Div()):
-                left, right = self._read(tree.left, depth + 1), self._read(tree.right, depth + 1)
-                return self._power(left, right) if isinstance(tree.op, ast.Pow) else self._joined(tree.op, left, right)
+                return operand if isinstance(tree.op, ast.UAdd) else self._negative(tree, operand)
+            case ast.BinOp(op=ast.Pow()):
+                return self._power(tree, self._read(tree.left, depth + 1), self._read(tree.right, depth + 1))
             case ast.Call(func=ast.Name(id=name), args=[argument], keywords=[]):
-                return self._function(name, self._read(argument, depth + 1))
-        piece = short(ast.get_source_segment(self._text, tree) or self._text)
+                return *self._read(argument, depth + 1), self._function(tree, name)
         hint = "; a power is written **" if isinstance(tree, ast.BinOp) and isinstance(tree.op, ast.BitXor) else ""
-        raise self._refusal(f"holds '{piece}', which has no place in a formula{hint}")
+        raise self._refusal(f"holds '{short(self._spelled(tree))}', which has no place in a formula{hint}")
 
-    def _name(self, name: str) -> Node:
+    def _name(self, name: str) -> Term:
         if name == "pi":
-            return Pi()
+            return Pi(name)
         if name != self._variable or not name:
             known = [name for name in (self._variable, "pi") if name]
             raise ValueError(unknown(f"{self._what} '{short(self._text)}': the name", name, known, FUNCTIONS))
-        return Variable()
+        return Variable(name)
 
-    def _function(self, name: str, argument: Node) -> Node:
+    def _function(self, tree: ast.Call, name: str) -> Term:
         if name not in FUNCTIONS:
             raise ValueError(unknown(f"{self._what} '{short(self._text)}': the function", name, FUNCTIONS))
-        return Function(name, argument)
+        return Function(self._spelled(tree), name)
 
-    def _negative(self, operand: Node) -> Node:
-        return Number(-operand.value) if isinstance(operand, Number) else Negative(operand)
+    def _negative(self, tree: ast.UnaryOp, operand: Terms) -> Terms:
+        number, text = _number(operand), self._spelled(tree)
+        return (*operand, Negative(text)) if number is None else (Number(text, -number),)
 
-    def _joined(self, sign: ast.operator, left: Node, right: Node) -> Node:
+    def _joined(self, tree: ast.BinOp, left: Terms, right: Terms) -> Terms:
         """Two parts; of two numbers, the number, so that a fraction is exact."""
-        join = JOINS[type(sign)]
-        if join is operator.truediv and right == Number(Fraction(0)):
+        join, one, other = JOINS[type(tree.op)], _number(left), _number(right)
+        if join is operator.truediv and other == 0:
             raise self._refusal("divides by zero")
-        if isinstance(left, Number) and isinstance(right, Number):
-            return self._bounded(join(left.value, right.value))
-        return Operation(join, left, right)
+        if one is not None and other is not None:
+            return (self._bounded(tree, join(one, other)),)
+        return *left, *right, Operation(self._spelled(tree), join)
 
-    def _power(self, base: Node, exponent: Node) -> Node:
-        if not isinstance(exponent, Number):
+    def _power(self, tree: ast.BinOp, base: Terms, exponent: Terms) -> Terms:
+        power, number = _number(exponent), _number(base)
+        if power is None:
             raise self._refusal("has a power that is not a rational number")
-        power = exponent.value
         if max(abs(power.numerator), power.denominator) > MAX_POWER:
             raise self._refusal(f"has the power {short(str(power))}, of more than {MAX_POWER} or in finer parts")
-        if power in {0, 1}:
-            return base if power else Number(Fraction(1))
-        if not isinstance(base, Number) or power.denominator > 1:
-            return Power(base, power)
-        if base.value == 0 and power < 0:
+        if power == 1:
+            return base
+        if number is None or power.denominator > 1:
+            return *base, Power(self._spelled(tree), power)
+        if number == 0 and power < 0:
             raise self._refusal("divides by zero")
-        _ = self._bounded(Fraction(1 << min(_bits(base.value) * abs(int(power)), 2 * MAX_BITS)))
-        return Number(base.value ** int(power))
+        _ = self._bounded(tree, Fraction(1 << min(_bits(number) * abs(int(power)), 2 * MAX_BITS)))
+        return (self._bounded(tree, number ** int(power)),)
 
-    def _bounded(self, value: Fraction) -> Number:
+    def _bounded(self, tree: ast.expr, value: Fraction) -> Number:
         if _bits(value) > MAX_BITS:
             raise self._refusal(f"holds a number of more than {MAX_BITS} bits")
-        return Number(value)
+        return Number(self._spelled(tree), value)
 
 
 def _bits(value: Fraction) -> int:

@@ -52,6 +52,8 @@ def test_what_keeps_the_energy_keeps_it_on_a_curve() -> None:
     ("arguments", "sentence"),
     [
         ({"curve": ["spline"]}, "curve 'spline' is unknown"),
+        ({"curve": ["x+acos(2)"], "start": 1, "end": 0}, r"is not real and finite: 'acos\(2\)' is the arc cosine of 2"),
+        ({"curve": ["x"], "start": "log(-1)", "end": 0}, r"does not start at a finite real number: 'log\(-1\)' is"),
         ({"curve": []}, "curve is empty"),
         ({"curve": ["line", "line"]}, "curve has one curve twice; each is accepted once"),
         ({"t_end": 2}, "a time from 0 to the descent time"),

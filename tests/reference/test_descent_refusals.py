@@ -7,7 +7,9 @@ from fractions import Fraction
 
 import pytest
 
+from reference.__main__ import main
 from reference.problems.descent import Descent
+from reference.terminal import run
 
 VERTICAL = "a curve that is vertical there is accepted by a parameter, 'x = ...; y = ...'."
 REFUSED = {
@@ -26,10 +28,40 @@ REFUSED = {
     ),
     "a vertical start": ("1 - sqrt(x)", 0, 1, f"with a finite slope at its start; {VERTICAL}"),
     "a vertical end": ("sqrt(x)", 1, 0, f"near x = 3.18323e-12; {VERTICAL}"),
-    "a root that ends on the way": ("sqrt(1 - x) - x", 0, 2, f"near x = 1; {VERTICAL}"),
-    "a pole": ("-1/(x - 3/2)**2 - 10*x", 1, 2, "is bent too sharply or has a pole near x = 1.4999"),
-    "a pole between samples": ("-1e-9/(x - 1/pi)**2 - x", 0, 1, "is bent too sharply or has a pole near x = 0.3183"),
-    "a logarithm to its end": ("log(x)", 1, 0, "is not real and analytic with a finite slope near x ="),
+    "a root that ends on the way": (
+        "sqrt(1 - x) - x",
+        0,
+        2,
+        "is not real and finite at x = 1.00781: 'sqrt(1 - x)' is the square root of -0.0078125; a curve that is real",
+    ),
+    "a root that ends at the end": ("sqrt(1 - x) - x", 0, 1, f"near x = 1; {VERTICAL}"),
+    "a pole": ("-1/(x - 3/2)**2 - 10*x", 1, 2, "at x = 1.5: '-1/(x - 3/2)**2' is a division by 0;"),
+    "a pole between samples": (
+        "-1e-9/(x - 1/pi)**2 - x",
+        0,
+        1,
+        "near x = 0.31831: '-1e-9/(x - 1/pi)**2' is a division by a number that is not proven to be other than zero;",
+    ),
+    "a pole behind which it would be higher": (
+        "-x - tan(x)",
+        0,
+        3,
+        "near x = 1.5708: 'tan(x)' is the tangent of a number that is not proven to be away from its poles;",
+    ),
+    "a gap that is filled": ("sin(x)/x - x", 0, 1, "at x = 0: 'sin(x)/x' is a division by 0;"),
+    "a turn that is too sharp": (
+        "-x - 1e-21/((x - 1/3)**2 + 1e-20)",
+        0,
+        1,
+        "has a pole near x = 0.333333 or bends there within less than 2^-40 of its way;",
+    ),
+    "a logarithm to its end": ("log(x)", 1, 0, "is not real and finite at x = 0: 'log(x)' is the logarithm of 0;"),
+    "a start that bends at once": (
+        "-x**2 - 1e-26*x",
+        0,
+        1,
+        "bends at its start within less than 2^-80 of its way, so small is its slope beside its curvature there;",
+    ),
     "an arc sine from its end": ("asin(x)", 1, 0, "with a finite slope at its start"),
     "a cusp of another kind": ("x = p**2; y = 1 - p**3", 0, 1, "otherwise than in a cusp as the cycloid's"),
     "a cusp that is no cusp": ("x = p**3; y = 1 - p**3", 0, 1, "otherwise than in a cusp as the cycloid's"),
@@ -42,9 +74,9 @@ REFUSED = {
     "a cusp on the way": ("x = (p - 1/2)**2; y = -(p - 1/2)**3", 0, 1, "(x' = y' = 0) near p = 0.5"),
     "a cusp at the end": ("x = cos(p)**3; y = sin(p)**3", "1.5", 0, "(x' = y' = 0) near p ="),
     "no way at all": ("x", 1, "2/2", "has the same start and end"),
-    "an end that is not real": ("x", "sqrt(-1)", 0, "does not start at a finite real number"),
-    "an end that is not finite": ("x", 0, "log(0)", "does not end at a finite real number"),
-    "a comb": ("sin(1000*x)/2000 - x", 0, 1, "is bent too sharply or has a pole near x = "),
+    "an end that is not real": ("x", "sqrt(-1)", 0, "does not start at a finite real number: 'sqrt(-1)' is the square"),
+    "an end that is not finite": ("x", 0, "log(0)", "does not end at a finite real number: 'log(0)' is the logarithm"),
+    "an end that cancels": ("x", "1 + acos(2) - acos(2)", 0, "does not start at a finite real number: 'acos(2)' is"),
 }
 
 
@@ -121,3 +153,30 @@ def test_a_place_outside_of_the_way_is_refused():
         Descent("line").along("passage", 1.5)
     with pytest.raises(ValueError, match=r"a fraction of the way from 0\.5 to 1 is accepted\.$"):
         Descent("line", released=0.5).along("passage", 0.25)
+
+
+@pytest.mark.parametrize("formula", ["-x**2", "-x", "-pi*x", "-(x)"])
+def test_a_formula_that_begins_with_a_minus_is_taken_after_an_equals_sign(formula, capsys):
+    """As an option's own word it is refused with the way to write it; -2*x begins as a number, and is taken."""
+    ends = ["--start", "1", "--end", "2", "--digits", "5"]
+    assert run(main, ["at", "descent", "--curve", formula, *ends]) == 2
+    assert capsys.readouterr().err.endswith("; a value that begins with a minus is written --OPTION=VALUE.\n")
+    assert run(main, ["at", "descent", f"--curve={formula}", *ends]) == 0
+    assert f"curve = {formula}\n" in capsys.readouterr().out
+    assert run(main, ["at", "descent", "--curve", "-2*x", *ends]) == 0
+
+
+@pytest.mark.parametrize(
+    ("words", "why"),
+    [
+        (["--curve", "x+acos(2)", "--start", "1", "--end", "0"], "is not real and finite: 'acos(2)' is the arc cosine"),
+        (["--curve", "x", "--start", "acos(2)", "--end", "0"], "does not start at a finite real number: 'acos(2)' is"),
+        (["--curve", "x" + "+x" * 50_000, "--start", "1", "--end", "0"], "has 100001 characters; at most 1000 are"),
+    ],
+)
+def test_what_is_refused_is_refused_at_the_command_line_in_one_sentence(words, why, capsys):
+    assert run(main, ["at", "descent", *words]) == 2
+    printed = capsys.readouterr()
+    assert why in printed.err
+    assert printed.err.count("\n") == 1
+    assert not printed.out

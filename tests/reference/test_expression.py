@@ -10,6 +10,7 @@ import pytest
 
 from reference.arithmetic import BALL, MPMATH, NUMPY, ComplexBall, Heyoka
 from reference.compiler import hy
+from reference.domains import real
 from reference.dual import with_slope
 from reference.expression import FUNCTIONS, MAX_DEPTH, MAX_LENGTH, Expression
 from reference.precision import ctx, mp
@@ -102,7 +103,10 @@ REFUSED = {
     "x +": "has a mistake in its syntax",
     "2x": "has a mistake in its syntax",
     "1if x else 2": "has a mistake in its syntax",
-    "(" * 300: "has a mistake in its syntax",
+    "(" * 150: "has a mistake in its syntax",
+    "(" * 300 + "x" + ")" * 300: f"is nested more than {MAX_DEPTH} deep",
+    "sin(" * 150 + "x" + ")" * 150: f"is nested more than {MAX_DEPTH} deep",
+    "x" + "/(1 + x" * 120 + ")" * 120: f"is nested more than {MAX_DEPTH} deep",
     "x\x00": "has a mistake in its syntax",
     "x = 2": "has a mistake in its syntax",
     "x^2": "holds 'x^2', which has no place in a formula; a power is written **",
@@ -140,7 +144,11 @@ REFUSED = {
     "x/(1 - 1)": "divides by zero",
     "0**-1": "divides by zero",
     "-" * 200 + "x": f"is nested more than {MAX_DEPTH} deep",
-    "+".join(["x"] * 200): f"is nested more than {MAX_DEPTH} deep",
+    "(" * 50_000 + "x" + ")" * 50_000: f"has 100001 characters; at most {MAX_LENGTH} are accepted",
+    "x" + "+x" * 50_000: f"has 100001 characters; at most {MAX_LENGTH} are accepted",
+    "1" * 1_000_000: f"has 1000000 characters; at most {MAX_LENGTH} are accepted",
+    "x**10**9": "has the power 1000000000, of more than 100",
+    "9**9**9": "has the power 387420489, of more than 100",
     "x" * (MAX_LENGTH + 1): f"has {MAX_LENGTH + 1} characters; at most {MAX_LENGTH} are accepted",
     "1e99999*x": "whose exponent is beyond the limit",
     "0x10*x": "spells no number",
@@ -169,3 +177,29 @@ def test_a_constant_has_no_variable():
 def test_every_function_can_be_written():
     for name in FUNCTIONS:
         assert Expression.parse(f"{name}(x)", "x")(NUMPY, 0.5) == getattr(NUMPY, name)(0.5)
+
+
+@pytest.mark.parametrize("sign", ["+", "-", "*", "/"])
+def test_a_long_sum_or_product_is_not_deep(sign):
+    """As many terms as fit, which no other arithmetic finds too deep either."""
+    text = sign.join(["x"] * (MAX_LENGTH // 2))
+    formula = Expression.parse(text, "x")
+    expected = {"+": 500.0, "-": -498.0, "*": 1.0, "/": 1.0}[sign]
+    assert formula(NUMPY, 1.0) == expected
+    assert with_slope(NUMPY, formula, 1.0) == (expected, {"*": 500.0, "/": -498.0}.get(sign, expected))
+    assert formula == Expression.parse(f" {text} ", "x")
+    assert hash(formula) == hash(Expression.parse(text, "x"))
+    with ctx.workprec(100):
+        assert real(formula, BALL.number(Fraction(1))) == int(expected)
+
+
+def test_a_text_beyond_the_limit_is_not_even_read(monkeypatch):
+    monkeypatch.setattr("ast.parse", None)
+    for text in ("x" + "+x" * 50_000, "-" * 100_000 + "x", "x**" * 30_000 + "x"):
+        with pytest.raises(ValueError, match=f"characters; at most {MAX_LENGTH} are accepted"):
+            Expression.parse(text, "x")
+
+
+def test_the_power_zero_is_one_of_what_is_a_number():
+    for text in ("x**0", "(x - x)**0", "0**0", "pi**0"):
+        assert Expression.parse(text, "x")(NUMPY, 2.0) == 1

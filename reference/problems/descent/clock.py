@@ -16,15 +16,17 @@ from typing import TYPE_CHECKING, Any
 
 from flint import acb, arb, arb_poly, arb_series
 
-from reference.balls import BALL, SERIES, ComplexBall
+from reference.balls import BALL, SERIES
 from reference.precision import ctx
+from reference.problems.descent.analytic import ANALYTIC
+from reference.problems.descent.centred import centred
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Sequence
 
     from reference.problems.descent.slide import Slide
 
-__all__ = ["NoChartError", "Primitive", "arc", "clock", "pieces"]
+__all__ = ["ChartWorkError", "NoChartError", "Primitive", "arc", "clock", "pieces"]
 
 REACH = 3
 OVERLAP = Fraction(5, 4)
@@ -32,13 +34,24 @@ OVERLAP = Fraction(5, 4)
 CHART_BITS = 64
 MAX_BOXES = 64
 """Complex balls in which a disc is covered, before it is cut."""
+MAX_CUTS = 4
+"""How often the squares that cover a disc are cut in four, before it is cut."""
 MAX_DEPTH = 40
-MAX_DISCS = 300
+MAX_DISCS = 2500
 """Discs that are tried for one curve."""
+MAX_OPERATIONS = 2_000_000
+"""Terms of the curve's formulas that are evaluated in complex balls for one curve."""
+CENTRED_COST = 4
+Way = tuple[int, "Callable[[Any, acb], Any]"]
+"""What an evaluation of the integrand costs, and the integrand."""
 
 
 class NoChartError(ArithmeticError):
-    """A curve could not be cut into pieces on which its integrand is analytic."""
+    """A curve could not be cut into pieces on which its integrand is analytic: the place is the argument."""
+
+
+class ChartWorkError(NoChartError):
+    """The bounds on the work were reached at the place that is the argument."""
 
 
 @dataclass(frozen=True)
@@ -65,20 +78,22 @@ def pieces(slide: Slide, of: str) -> tuple[Piece, ...]:
     """The pieces of the way, from the start on, for the integrand of this name.
 
     Raises:
-        NoChartError: MAX_DISCS are not enough, or a piece would be shorter than 2^-MAX_DEPTH: the integrand is not
-            analytic near the place that was reached, which is the error's argument.
+        ChartWorkError: MAX_DISCS or MAX_OPERATIONS are not enough.
+        NoChartError: a piece would be shorter than 2^-MAX_DEPTH: the integrand is not analytic near the place.
     """
     found: list[Piece] = []
-    tried = 0
+    cover, tried = _Cover(slide, of), 0
     waiting = [(Fraction(0), Fraction(1))]
     while waiting:
         low, high = waiting.pop()
         tried += 1
-        if (high - low) * 2**MAX_DEPTH < 1 or tried > MAX_DISCS:
+        if (high - low) * 2**MAX_DEPTH < 1:
             raise NoChartError((low + high) / 2)
+        if tried > MAX_DISCS or cover.operations > MAX_OPERATIONS:
+            raise ChartWorkError(low)
         centre, radius = (Fraction(0), high) if low == 0 else ((low + high) / 2, (high - low) / 2)
         with ctx.workprec(CHART_BITS):
-            bound = _bound(getattr(slide, of), centre, REACH * radius)
+            bound = cover.bound(centre, REACH * radius)
         if bound is None:
             middle = (low + high) / 2
             waiting += [(middle, high), (low, middle)]
@@ -87,29 +102,48 @@ def pieces(slide: Slide, of: str) -> tuple[Piece, ...]:
     return tuple(found)
 
 
-def _bound(function: Callable[[Any, acb], acb], centre: Fraction, reach: Fraction) -> arb | None:
-    """A bound of a real function on a disc on which it is proven to be analytic; None where that takes too much.
+class _Cover:
+    """Covers discs with squares on which an integrand is analytic, and counts the work."""
 
-    The half of the disc above the real axis is covered with squares, cut in four until the function is analytic on
-    each of them.
-    """
-    m, largest = ComplexBall(analytic=True), arb(0)
-    half = reach / 2
-    squares, seen = [(centre - half, half, half), (centre + half, half, half)], 0
-    while squares:
-        x, y, half = squares.pop()
-        if _beyond(abs(x - centre) - half, y - half, reach):
-            continue
-        seen += 1
-        value = function(m, acb(arb(BALL.number(x), BALL.number(half)), arb(BALL.number(y), BALL.number(half))))
-        if value.is_finite():
-            largest = arb.max(largest, value.abs_upper())
-        elif seen + len(squares) > MAX_BOXES:
-            return None
-        else:
-            half /= 2
-            squares += [(x + i * half, y + j * half, half) for i in (-1, 1) for j in (-1, 1)]
-    return largest.upper()
+    def __init__(self, slide: Slide, of: str) -> None:
+        self._ways: list[Way] = [(slide.curve.size, getattr(slide, of))]
+        sharper = centred(slide)
+        if sharper is not None:
+            self._ways.append((CENTRED_COST * slide.curve.size, getattr(sharper, of)))
+        self.operations = 0
+
+    def bound(self, centre: Fraction, reach: Fraction) -> arb | None:
+        """A bound of the integrand, real on the real axis, on a disc on which it is proven to be analytic.
+
+        The half of the disc above the real axis is covered with squares, cut in four until the integrand is analytic on
+        each of them; None where that takes too much.  The largest squares are tried with sharper enclosures too.
+        """
+        largest, half = arb(0), reach / 2
+        squares, seen = [(centre - half, half, half, 0), (centre + half, half, half, 0)], 0
+        while squares:
+            x, y, half, cuts = squares.pop()
+            if _beyond(abs(x - centre) - half, y - half, reach):
+                continue
+            seen += 1
+            square = acb(arb(BALL.number(x), BALL.number(half)), arb(BALL.number(y), BALL.number(half)))
+            value = self._size(square, self._ways[: 1 if cuts else 2])
+            if value is not None:
+                largest = arb.max(largest, value)
+            elif seen + len(squares) > MAX_BOXES or cuts == MAX_CUTS:
+                return None
+            else:
+                half /= 2
+                squares += [(x + i * half, y + j * half, half, cuts + 1) for i in (-1, 1) for j in (-1, 1)]
+        return largest.upper()
+
+    def _size(self, square: acb, ways: Sequence[Way]) -> arb | None:
+        """A bound on a square; None if the integrand is not proven to be analytic there."""
+        for cost, function in ways:
+            self.operations += cost
+            value = acb(function(ANALYTIC, square))
+            if value.is_finite():
+                return value.abs_upper()
+        return None
 
 
 def _beyond(x: Fraction, y: Fraction, reach: Fraction) -> bool:

@@ -53,6 +53,11 @@ class Curve:
         """The curve as the arguments of a descent are written."""
         return repr(self.name)
 
+    @property
+    def size(self) -> int:
+        """How many operations its profile takes."""
+        raise NotImplementedError
+
     def spelled(self, w: Fraction) -> str:
         """The place w as a message shows it."""
         return f"the fraction {float(w):.6g} of the way"
@@ -72,6 +77,10 @@ class FormulaCurve(Curve):
     def arguments(self) -> str:
         named = self.name in {curve.name for curve in RACE}
         return repr(self.name) if named else f"{self.name!r}, start={self.start!r}, end={self.end!r}"
+
+    @property
+    def size(self) -> int:
+        return len(self.x.terms) + len(self.y.terms)
 
     def spelled(self, w: Fraction) -> str:
         with mp.workprec(BINARY64_BITS):
@@ -112,6 +121,8 @@ class CycloidByArc(Curve):
     Its arc is 4 (1 - cos(a/2)), so that w = 1 - cos(a/2): in w the height is a polynomial and N = 16, where the
     angle would start with N = 0 at the cusp.
     """
+
+    size = 5
 
     def horizontal(self, m: ElementaryArithmetic, w: Any) -> Any:
         """pi - a + sin a, with sin(a/4) = sqrt(w/2) and sin(a/2) = sqrt(w (2 - w))."""

@@ -60,6 +60,14 @@ def _straight(curve: FormulaCurve) -> Line | None:
     return Line(surd(dy * dy / square), surd(-dx * dy / square)) if surd(dx * ddy - dy * ddx).is_zero else None
 
 
+def _bent(curve: FormulaCurve, released: Fraction) -> bool:
+    """Whether a curve is proven to be no straight line, by its curvature at a place: it takes less than an identity."""
+    with ctx.workprec(SIGN_BITS):
+        place = BALL.number((1 + 2 * released) / 3)
+        (dx, dy), (ddx, ddy) = curve.slopes(BALL, place), curve.second_slopes(BALL, place)
+        return bool(dx * ddy - dy * ddx != 0)
+
+
 @dataclass(frozen=True)
 class Parameter:
     """The parameter p from ``start`` to ``end``, the square of the arc for a unit of it, and the drop if known."""
@@ -124,6 +132,8 @@ class Rational:
         """The straight line that the way is, if it is known to be one."""
         curve = self.slide.curve
         if not isinstance(curve, FormulaCurve):
+            return None
+        if _bent(curve, self.slide.released):
             return None
         upright = exactly(lambda m, w: with_slope(m, curve.horizontal, w)[1], UNKNOWN)
         if upright is not None and upright.is_zero:

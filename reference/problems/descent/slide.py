@@ -21,8 +21,6 @@ from reference.problems.descent.equations import slowness
 if TYPE_CHECKING:
     from fractions import Fraction
 
-    from reference.balls import ComplexBall
-
 __all__ = ["Slide"]
 
 NARROW = 8
@@ -69,14 +67,14 @@ class Slide:
         square = u * u
         return arc_square if self.order == 1 else arc_square / square, (start - height) / square
 
-    def _of_ball(self, m: ComplexBall, u: acb) -> tuple[acb, acb]:
+    def _of_ball(self, m: Any, u: acb) -> tuple[acb, acb]:
         """In a ball that may hold 0, by the mean value theorem.
 
         f(w) - f(w0) = (w - w0) int_0^1 f'(w0 + r (w - w0)) dr lies in w - w0 times the convex hull of f' on the segment
         from w0 to w.
         """
         length, w = m.number(1 - self.released), self.way(m, u)[0]
-        segment = m.number(self.released).union(w)
+        segment = acb(m.number(self.released)).union(w)
         if self.order == 1:
             return self.curve.profile(m, w)[2], -length * self.curve.profile(m, segment)[1]
         ddx, ddy = self._formulas.second_slopes(m, segment)
