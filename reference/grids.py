@@ -72,7 +72,7 @@ def _group(table: dict[str, Any]) -> Group:
         raise ValueError(unknown("group", str(name), layouts))
     layout = layouts[name.strip("/")]
     given = {key: value for key, value in table.items() if key not in BESIDES}
-    wanted = {coordinate.name: coordinate for coordinate in (*layout.parameters, *layout.coordinates)}
+    wanted = {coordinate.name: coordinate for coordinate in (*layout.parameters, *layout.given)}
     for key in given:
         if key not in wanted:
             raise ValueError(unknown(f"the input of {layout.path},", key, wanted))
@@ -81,7 +81,7 @@ def _group(table: dict[str, Any]) -> Group:
             raise ValueError(f"{layout.path} has no '{key}'; it needs {', '.join(wanted)}.")
     where = f"{layout.path}/"
     parameters = {asked.name: _number(where + asked.name, given[asked.name]) for asked in layout.parameters}
-    inputs = {asked.name: _numbers(where, asked, given[asked.name]) for asked in layout.coordinates}
+    inputs = {asked.name: _numbers(where, asked, given[asked.name]) for asked in layout.given}
     bound = _count(f"{where}taylor_elements", table["taylor_elements"]) if "taylor_elements" in table else None
     group = Group(layout, parameters, inputs, bound)
     for block in group.blocks():

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
@@ -23,7 +24,7 @@ if TYPE_CHECKING:
     from reference.problem import Row
     from reference.store import Dataset
 
-__all__ = ["Proof", "verify"]
+__all__ = ["Proof", "differs", "verify"]
 
 TAYLOR_ELEMENTS = 6
 """Arguments a row that the Taylor route is asked for again, from the first."""
@@ -102,7 +103,7 @@ def verify(
         proof.first = (
             proof.first
             or decimal_fault(said, texts, ATTRIBUTE_LIMIT)
-            or measurement_fault(said, proof.row, proof.digits)
+            or measurement_fault(said.attrs, math.prod(said.shape), proof.row, proof.digits)
         )
     return list(proofs.values())
 
@@ -115,7 +116,7 @@ def _again(block: Block) -> tuple[np.ndarray, tuple[str, ...]]:
 def _group(dataset: Dataset, path: str) -> Group:
     """The group with the inputs that the file gives it."""
     layout = next(layout for layout in dataset.layouts if layout.path == path)
-    inputs = {axis.name: dataset[f"{path}/{axis.name}"].value for axis in layout.coordinates}
+    inputs = {axis.name: dataset[f"{path}/{axis.name}"].value for axis in layout.given}
     group = Group(layout, dataset.parameters[path], inputs)
     for block in group.blocks():
         try:
@@ -133,7 +134,7 @@ def _compare(dataset: Dataset, block: Block, limbs: np.ndarray, proofs: dict[tup
         value, tail = dataset[proof.name].read(block.selection(component))
         stored = np.concatenate([np.reshape(value, (-1, 1)), np.reshape(tail, (-1, LIMBS - 1))], axis=1)
         proven = limbs[:, component.component]
-        differing = np.flatnonzero((stored != proven).any(axis=1))
+        differing = np.flatnonzero(differs(stored, proven, signed_zeros=dataset.schema.signed_zeros).any(axis=1))
         proof.elements += len(proven)
         proof.wrong += differing.size
         if differing.size and not proof.first:
@@ -142,6 +143,12 @@ def _compare(dataset: Dataset, block: Block, limbs: np.ndarray, proofs: dict[tup
                 f"element {(block.element, block.start + i)} is stored as {stored[i].tolist()} "
                 f"and proven to be {proven[i].tolist()}"
             )
+
+
+def differs(stored: np.ndarray, proven: np.ndarray, *, signed_zeros: bool) -> np.ndarray:
+    """Where float64 numbers differ: in any bit, but for the sign of zero where ``signed_zeros`` may be stored."""
+    same = stored.view(np.int64) == proven.view(np.int64)
+    return ~(same | (stored == proven)) if signed_zeros else ~same
 
 
 def _sample(groups: list[Group]) -> Iterator[Block]:
