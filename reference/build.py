@@ -15,10 +15,13 @@ from typing import TYPE_CHECKING
 
 import reference
 from reference.blocks import compute
+from reference.catalogue import PROFILES
 from reference.certify import ROUTES
 from reference.claims import attributes
 from reference.executors import opened, results
+from reference.names import unknown
 from reference.partial import partial
+from reference.plan import is_grid_file
 from reference.store.files import destination, note_checksum, replacing, sha256
 from reference.store.writer import writing
 
@@ -54,9 +57,11 @@ def build(
     Raises:
         OSError: ``out`` is a folder, its folder is missing or cannot be written, or the disk is full.
         ArithmeticError: the routes disagree, or a value could not be decided; names the problem and its values.
-        ValueError, ImportError: the executor is unknown, or its package is not installed.
+        ValueError, ImportError: the profile or executor is unknown, or its package is not installed.
         BusyError, WorkerError: another build of the same file is running; a worker process died.
     """
+    if plan.profile not in PROFILES and not is_grid_file(plan.profile):
+        raise ValueError(f"{unknown('profile', plan.profile, PROFILES)[:-1]}, and names of grid files.")
     target = destination(out)
     try:
         with partial(target, plan.identity(reference.__version__)) as finished:

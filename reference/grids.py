@@ -24,7 +24,7 @@ from typing import TYPE_CHECKING, Any
 from reference.catalogue import LAYOUTS
 from reference.exact import exact
 from reference.names import short, unknown
-from reference.plan import Group, Plan
+from reference.plan import Group, Plan, is_grid_file
 
 if TYPE_CHECKING:
     from reference.plan import Coordinate
@@ -33,7 +33,6 @@ __all__ = ["MAX_NUMBERS", "plan_from"]
 
 MAX_NUMBERS = 10_000_000
 """Numbers on one axis."""
-SUFFIX = ".toml"
 RANGE = ("start", "stop", "count")
 BESIDES = ("path", "taylor_elements")
 
@@ -45,8 +44,8 @@ def plan_from(path: str) -> Plan:
         ValueError: the file is not there, is not named or written as TOML, or a group, parameter or input in it is
             missing, unknown, twice there or not acceptable.
     """
-    if not path.endswith(SUFFIX):
-        raise ValueError(f"the grid file is '{short(path)}'; a name that ends with {SUFFIX} is accepted.")
+    if not is_grid_file(Path(path).name):
+        raise ValueError(f"the grid file is '{short(path)}'; a printable name that ends with .toml is accepted.")
     try:
         asked = tomllib.loads(Path(path).read_text(encoding="utf-8"), parse_float=str)
     except (OSError, UnicodeDecodeError) as error:

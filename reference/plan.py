@@ -20,10 +20,17 @@ if TYPE_CHECKING:
 
     from reference.problem import Problem, Quantity, Row
 
-__all__ = ["BLOCK_LENGTH", "Block", "Component", "Coordinate", "Group", "Layout", "Plan", "monotonic"]
+__all__ = ["BLOCK_LENGTH", "Block", "Component", "Coordinate", "Group", "Layout", "Plan", "is_grid_file", "monotonic"]
 
+NAME_LENGTH = 255
+"""Characters of a grid file's name."""
 BLOCK_LENGTH = 2048
 """Times in one block: the unit of work, of resuming and of storage, and so the bound on memory."""
+
+
+def is_grid_file(name: str) -> bool:
+    """Whether a profile is the name of a grid file: NAME.toml, of printable characters."""
+    return name.endswith(".toml") and name.isprintable() and len(name) <= NAME_LENGTH
 
 
 def monotonic(values: np.ndarray) -> bool:

@@ -18,7 +18,7 @@ from h5py import h5d, h5l, h5o, h5z
 from reference.catalogue import PROFILES
 from reference.claims import free_attributes, limbs_fault, measurement_fault
 from reference.names import short, unknown
-from reference.plan import monotonic
+from reference.plan import is_grid_file, monotonic
 from reference.store.attributes import TYPES, bounded, refusal, says, text_of, texts
 from reference.store.content import dimensions, parameters_of
 from reference.store.schema import (
@@ -47,8 +47,6 @@ SIGNATURE = b"\x89HDF\r\n\x1a\n"
 CHECKSUM_BYTES = 4
 FINGERPRINT = re.compile(r"[0-9a-f]{64}")
 DATE = re.compile(r"\d{4}-\d\d-\d\dT\d\d:\d\d:\d\d\+00:00")
-PROFILE_LENGTH = 255
-"""Characters of a grid file's name."""
 
 
 def inspect(file: h5py.File, size: int) -> Inspection:
@@ -104,8 +102,7 @@ class Inspection:
         version, profile = (text_of(self._file, name) for name in ("version", "profile"))
         if version not in RELEASED:
             raise refusal(self._file, f"is of version '{short(version)}'; {', '.join(RELEASED)} is known")
-        grid_file = profile.endswith(".toml") and profile.isprintable() and len(profile) <= PROFILE_LENGTH
-        if profile not in PROFILES and not grid_file:
+        if profile not in PROFILES and not is_grid_file(profile):
             raise refusal(self._file, f"has the profile '{short(profile)}', which is none, nor the name of a grid file")
         expected = root_attributes(self.schema, version, profile, date)
         fingerprint = says(self._file, expected, {"fingerprint"}).get("fingerprint", "")
