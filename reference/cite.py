@@ -22,14 +22,15 @@ def cite(dataset: Dataset, form: str = "bibtex") -> str:
     title, version = dataset.attrs["title"], dataset.attrs["version"]
     creators, mark = dataset.attrs["creators"], f"sha256:{dataset.fingerprint}"
     year = str(dataset.provenance.get("date", RELEASED[version]))[:4]
+    profile = f"{dataset.attrs['profile']} profile"
     if form == "text":
-        return f"{creators} ({year}). {title}. Version {version}, {dataset.attrs['profile']} profile. Fingerprint {mark}."
+        return f"{creators} ({year}). {title}. Version {version}, {profile}. Fingerprint {mark}."
     fields = {
         "author": f"{{{creators}}}",
         "title": f"{{{title}}}",
         "year": year,
         "version": version,
-        "note": f"Dataset, {dataset.attrs['profile']} profile, version {version}, fingerprint {mark}",
+        "note": f"Dataset, {profile}, version {version}, fingerprint {mark}",
         "copyright": dataset.attrs["license"],
     }
     body = "".join(f"  {name:<9} = {{{text}}},\n" for name, text in fields.items())

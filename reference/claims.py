@@ -56,7 +56,7 @@ def _reason(row: Row, route: str) -> str:
 
 
 def free_attributes(row: Row) -> set[str]:
-    """The attributes in which the files of one schema differ: measurements, and decimals of a row that is asked once."""
+    """The attributes in which the files of one schema differ: measurements, and a scalar's decimals."""
     found = {f"{route}_{what}" for route in ROUTES for what in ("digits", "reason", "checked_elements")}
     return found | {"checked_elements"} | ({"decimal"} if row.over == "once" else set())
 

@@ -147,8 +147,8 @@ def _compare(dataset: Dataset, block: Block, limbs: np.ndarray, proofs: dict[tup
 
 def differs(stored: np.ndarray, proven: np.ndarray, *, signed_zeros: bool) -> np.ndarray:
     """Where float64 numbers differ: in any bit, but for the sign of zero where ``signed_zeros`` may be stored."""
-    same = stored.view(np.int64) == proven.view(np.int64)
-    return ~(same | (stored == proven)) if signed_zeros else ~same
+    other: np.ndarray = stored.view(np.int64) != proven.view(np.int64)
+    return other & (stored != proven) if signed_zeros else other
 
 
 def _sample(groups: list[Group]) -> Iterator[Block]:

@@ -98,7 +98,9 @@ class Inspection:
         self._names(provenance, set())
         date = texts(provenance).get("date", "")
         if date and not DATE.fullmatch(date):
-            raise refusal(provenance, f"has the date '{short(date)}'; one such as 2026-11-23T00:00:00+00:00 is accepted")
+            raise refusal(
+                provenance, f"has the date '{short(date)}'; 2026-11-23T00:00:00+00:00 is of the accepted form"
+            )
         version, profile = (text_of(self._file, name) for name in ("version", "profile"))
         if version not in RELEASED:
             raise refusal(self._file, f"is of version '{short(version)}'; {', '.join(RELEASED)} is known")
@@ -132,7 +134,8 @@ class Inspection:
         for name in group.id:
             known = name.decode("utf-8", "backslashreplace")
             if known not in allowed:
-                raise refusal(group, f"has a member that is not in the schema: {unknown('name', known, allowed)}"[:-1])
+                sentence = unknown("name", known, sorted(allowed))
+                raise refusal(group, f"has a member that is not in the schema: {sentence[:-1]}")
             names.append(known)
         return names
 

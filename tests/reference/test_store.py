@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import json
+import re
 import subprocess
 
 import h5py
@@ -292,6 +293,19 @@ def test_the_datasheet_has_a_page_for_each_group(built):
     assert f"| `period` | {period} |" in datasheet(dataset, "pendulum/libration")
     with pytest.raises(ValueError, match=r"^group 'pendulum/libation' is unknown, perhaps pendulum/libration"):
         datasheet(dataset, "pendulum/libation")
+
+
+def test_every_row_of_a_table_has_the_cells_of_its_heading(built):
+    """A bar in a definition, such as a = |theta0|, is no border."""
+    from reference.datasheet import datasheet
+
+    sheet = datasheet(load(built))
+    assert r"dT/da, a = \|theta0\|" in sheet
+    width = 0
+    for line in sheet.splitlines():
+        cells = len(re.findall(r"(?<!\\)\|", line)) if line.startswith("|") else 0
+        assert not (width and cells and cells != width), line
+        width = cells
 
 
 def test_the_datasheet_explains_a_number_of_the_file_itself(built):
