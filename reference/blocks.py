@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from reference.certify import ROUTES, agreement
+from reference.claims import DECIMAL_DIGITS
 from reference.limbs import to_limbs
 from reference.routes import enclosure
 
@@ -23,7 +24,6 @@ __all__ = ["LIMBS", "START_BITS", "Result", "compare", "compute", "decimals", "p
 
 LIMBS = 3
 START_BITS = 53 * LIMBS
-DECIMAL_DIGITS = 50
 QUADRATURE_ELEMENTS = 51
 """Arguments of a block that are held against quadrature, spread evenly from the first to the last."""
 

@@ -17,10 +17,13 @@ from typing import TYPE_CHECKING
 
 import reference
 from reference.blocks import Result, compute
+from reference.catalogue import PROFILES
 from reference.certify import ROUTES
 from reference.claims import attributes
 from reference.executors import opened, results
+from reference.names import unknown
 from reference.partial import PlaceError, partial, place_of
+from reference.plan import is_grid_file
 from reference.store import DatasetError
 from reference.store.checksums import CHECKSUMS, checksums, note_checksum, require_notable
 from reference.store.files import destination, replacing, sha256, temporaries
@@ -59,10 +62,12 @@ def build(
             the place of the unfinished blocks, ``out.partial``, is not ours.
         DatasetError: the list of checksums beside it is damaged or cannot be written.
         ArithmeticError: the routes disagree, or a value could not be decided; names the problem and its values.
-        ValueError, ImportError: SOURCE_DATE_EPOCH is no number of seconds; the executor is unknown, or its package is
-            not installed.
+        ValueError, ImportError: SOURCE_DATE_EPOCH is no number of seconds; the profile or the executor is unknown, or
+            its package is not installed.
         BusyError, WorkerError: another build of the same file is running; a worker process died.
     """
+    if plan.profile not in PROFILES and not is_grid_file(plan.profile):
+        raise ValueError(f"{unknown('profile', plan.profile, PROFILES)[:-1]}, and names of grid files.")
     target = destination(out)
     if target.name == CHECKSUMS:
         raise OSError(f"'{out}' is the list of checksums beside the datasets; choose another output path.")

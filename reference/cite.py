@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from reference.store.schema import RELEASED
+
 if TYPE_CHECKING:
     from reference.store import Dataset
 
@@ -13,19 +15,22 @@ FORMATS = ("bibtex", "text")
 
 
 def cite(dataset: Dataset, form: str = "bibtex") -> str:
-    """The citation of a dataset as BibTeX or as a sentence, with version and fingerprint; dated where the file is."""
+    """The citation of a dataset as BibTeX or as a sentence, with version and fingerprint.
+
+    The year is the file's, where it is dated, else that in which its version of the program was released.
+    """
     title, version = dataset.attrs["title"], dataset.attrs["version"]
     creators, mark = dataset.attrs["creators"], f"sha256:{dataset.fingerprint}"
-    year = str(dataset.provenance.get("date", ""))[:4]
+    year = str(dataset.provenance.get("date", RELEASED[version]))[:4]
+    profile = f"{dataset.attrs['profile']} profile"
     if form == "text":
-        dated = f" ({year})" if year else ""
-        return f"{creators}{dated}. {title}. Version {version}, {dataset.attrs['profile']} profile. Fingerprint {mark}."
+        return f"{creators} ({year}). {title}. Version {version}, {profile}. Fingerprint {mark}."
     fields = {
         "author": f"{{{creators}}}",
         "title": f"{{{title}}}",
-        **({"year": year} if year else {}),
+        "year": year,
         "version": version,
-        "note": f"Dataset, {dataset.attrs['profile']} profile, version {version}, fingerprint {mark}",
+        "note": f"Dataset, {profile}, version {version}, fingerprint {mark}",
         "copyright": dataset.attrs["license"],
     }
     body = "".join(f"  {name:<9} = {{{text}}},\n" for name, text in fields.items())

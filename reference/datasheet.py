@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from reference.certify import REQUIRED_DIGITS
 from reference.cite import cite
 from reference.exact import expansion
-from reference.names import unknown
+from reference.names import printable, unknown
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -116,7 +116,7 @@ def datasheet(dataset: Dataset, group: str | None = None) -> str:
         return "\n".join(_page(dataset, name)) + "\n"
     values = {
         **dataset.attrs,
-        "name": dataset.path.name,
+        "name": printable(dataset.path.name),
         "bytes": f"{dataset.path.stat().st_size:,}",
         "elements": f"{sum(math.prod(variable.shape) for variable in dataset.values() if not variable.is_input):,}",
         "example": _example(dataset),
@@ -145,14 +145,15 @@ def _page(dataset: Dataset, group: str) -> Iterator[str]:
     members = [variable for variable in dataset.values() if variable.name.rpartition("/")[0] == group]
     inputs = [variable for variable in members if variable.is_input]
     values = [variable for variable in members if not variable.is_input]
-    level, _, why = attributes["difficulty"].partition(": ")
     yield f"### `/{group}`: {attributes['long_name']}\n"
-    yield f"**Problem**: {attributes['statement']}.\n"
-    yield f"**Level of difficulty**: {level}" + (f" ({why}).\n" if why else ".\n")
+    if "statement" in attributes:  # schema version 1 has none
+        level, _, why = attributes["difficulty"].partition(": ")
+        yield f"**Problem**: {attributes['statement']}.\n"
+        yield f"**Level of difficulty**: {level}" + (f" ({why}).\n" if why else ".\n")
     yield "| input | units | what it is | numbers |\n|---|---|---|---|"
     for name in attributes["parameters"].split():
         units, meaning = attributes[f"{name}_units"], attributes[f"{name}_long_name"]
-        yield f"| `{name}` | {units} | {meaning} | {attributes[name]!r} |"
+        yield _line(f"`{name}`", units, meaning, repr(attributes[name]))
     yield from (_input_line(variable) for variable in inputs)
     yield "\n| certified variable | shape | units | definition | taylor | quadrature |\n|---|---|---|---|---|---|"
     yield from (_variable_line(variable) for variable in values)
@@ -163,17 +164,22 @@ def _page(dataset: Dataset, group: str) -> Iterator[str]:
     yield f"\n**To cite this group**: {cite(dataset, 'text')} Group `/{group}`."
 
 
+def _line(*cells: str) -> str:
+    """A row of a table; a bar in a cell is no border."""
+    return "| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |"
+
+
 def _input_line(variable: Variable) -> str:
     value = variable.value
     labels = str(variable.attrs.get("flag_meanings", ""))
     numbers = labels.replace(" ", ", ") or f"{value.size}, from {value.min().item()!r} to {value.max().item()!r}"
-    return f"| `{_short(variable)}` | {variable.units} | {variable.attrs['long_name']} | {numbers} |"
+    return _line(f"`{_short(variable)}`", variable.units, variable.attrs["long_name"], numbers)
 
 
 def _variable_line(variable: Variable) -> str:
     shape = " × ".join(f"{dim} {length}" for dim, length in zip(variable.dims, variable.shape, strict=True)) or "one"
-    routes = " | ".join(_route(variable, route) for route in ("taylor", "quadrature"))
-    return f"| `{_short(variable)}` | {shape} | {variable.units} | {variable.definition} | {routes} |"
+    routes = (_route(variable, route) for route in ("taylor", "quadrature"))
+    return _line(f"`{_short(variable)}`", shape, variable.units, variable.definition, *routes)
 
 
 def _short(variable: Variable) -> str:
@@ -197,12 +203,12 @@ def _samples(inputs: Sequence[Variable], values: Sequence[Variable]) -> Iterator
     axis = scalars[0].dims[0] if scalars[0].dims else ""
     along = [variable for variable in inputs if axis and variable.dims == (axis,)]
     titles = [f"`{_short(variable)}`" for variable in along] + ["certified variable", "value, every digit proven"]
-    yield "\n| " + " | ".join(titles) + " |\n" + "|---" * len(titles) + "|"
+    yield f"\n{_line(*titles)}\n" + "|---" * len(titles) + "|"
     for place in chosen:
         given = [_input_at(variable, place) for variable in along]
         for variable in scalars:
             digits = variable.attrs["decimal"].split()[place]
-            yield "| " + " | ".join([*given, f"`{_short(variable)}`", digits]) + " |"
+            yield _line(*given, f"`{_short(variable)}`", digits)
 
 
 def _input_at(variable: Variable, place: int) -> str:

@@ -24,7 +24,7 @@ from typing import TYPE_CHECKING, Any
 from reference.catalogue import LAYOUTS
 from reference.exact import exact
 from reference.names import said, short, unknown
-from reference.plan import Group, Plan
+from reference.plan import Group, Plan, is_grid_file
 
 if TYPE_CHECKING:
     from fractions import Fraction
@@ -36,7 +36,6 @@ __all__ = ["MAX_NUMBERS", "plan_from"]
 MAX_NUMBERS = 10_000_000
 """Numbers on one axis."""
 MAX_LABEL = 2**31 - 1
-SUFFIX = ".toml"
 RANGE = ("start", "stop", "count")
 BESIDES = ("path", "taylor_elements")
 
@@ -51,10 +50,8 @@ def plan_from(path: str) -> Plan:
     """
     if not isinstance(path, str):
         raise TypeError(f"the grid file is of type {type(path).__name__}; its name as text is accepted.")
-    if not Path(path).name.isprintable():
-        raise ValueError(f"the grid file is {short(path)!a}; a name of printable letters is accepted.")
-    if not path.endswith(SUFFIX):
-        raise ValueError(f"the grid file is '{short(path)}'; a name that ends with {SUFFIX} is accepted.")
+    if not is_grid_file(Path(path).name):
+        raise ValueError(f"the grid file is '{short(path)}'; a printable name that ends with .toml is accepted.")
     try:
         asked = tomllib.loads(Path(path).read_text(encoding="utf-8"), parse_float=str)
     except (OSError, UnicodeDecodeError) as error:
@@ -80,7 +77,7 @@ def _group(table: dict[str, Any]) -> Group:
         raise ValueError(unknown("group", str(name), layouts))
     layout = layouts[name.strip("/")]
     given = {key: value for key, value in table.items() if key not in BESIDES}
-    wanted = {coordinate.name: coordinate for coordinate in (*layout.parameters, *layout.coordinates)}
+    wanted = {coordinate.name: coordinate for coordinate in (*layout.parameters, *layout.given)}
     for key in given:
         if key not in wanted:
             raise ValueError(unknown(f"the input of {layout.path},", key, wanted))
@@ -89,7 +86,7 @@ def _group(table: dict[str, Any]) -> Group:
             raise ValueError(f"{layout.path} has no '{key}'; it needs {', '.join(wanted)}.")
     where = f"{layout.path}/"
     parameters = {asked.name: _number(where + asked.name, given[asked.name]) for asked in layout.parameters}
-    inputs = {asked.name: _numbers(where, asked, given[asked.name]) for asked in layout.coordinates}
+    inputs = {asked.name: _numbers(where, asked, given[asked.name]) for asked in layout.given}
     bound = _count(f"{where}taylor_elements", table["taylor_elements"]) if "taylor_elements" in table else None
     group = Group(layout, parameters, inputs, bound)
     for block in group.blocks():

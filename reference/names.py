@@ -1,4 +1,4 @@
-"""The sentence for a name that is not known: what was given, the nearest valid names, and all that are accepted."""
+"""Names as sentences repeat them: what was given, nothing in it that a terminal obeys, and the nearest valid names."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-__all__ = ["said", "short", "unknown"]
+__all__ = ["printable", "said", "short", "unknown"]
 
 SHOWN = 12
 MANY_BITS = 1000
@@ -20,14 +20,23 @@ LENGTH = 60
 """Characters up to which a text that was given is repeated whole."""
 
 
-def short(text: str) -> str:
-    """The text as a sentence repeats it: whole, or where it is long its beginning and its length.
+def printable(text: str) -> str:
+    """The text with what cannot be printed escaped: control characters, and those that hide or reverse others.
 
-    What cannot be printed is escaped: it may come from a file, and would command a terminal.
+    Text from a file or a file's name would otherwise command the terminal that shows it.
     """
+    if text.isprintable():
+        return text
+    return "".join(letter if letter.isprintable() else ascii(letter)[1:-1] for letter in text)
+
+
+def short(text: str | bytes) -> str:
+    """The text as a sentence repeats it: printable, and where it is long its beginning and its length."""
+    if isinstance(text, bytes):
+        text = text.decode("utf-8", "backslashreplace")
     if len(text) > LENGTH:
         return f"{short(text[:40])}... ({len(text)} characters)"
-    return "".join(letter if letter.isprintable() else ascii(letter)[1:-1] for letter in text)
+    return printable(text)
 
 
 def said(value: object) -> str:

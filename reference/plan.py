@@ -23,10 +23,22 @@ if TYPE_CHECKING:
 
     from reference.problem import Problem, Quantity, Row
 
-__all__ = ["BLOCK_LENGTH", "Block", "Component", "Coordinate", "Group", "Layout", "Plan"]
+__all__ = ["BLOCK_LENGTH", "Block", "Component", "Coordinate", "Group", "Layout", "Plan", "is_grid_file", "monotonic"]
 
+NAME_LENGTH = 255
+"""Characters of a grid file's name."""
 BLOCK_LENGTH = 2048
 """Times in one block: the unit of work, of resuming and of storage, and so the bound on memory."""
+
+
+def is_grid_file(name: str) -> bool:
+    """Whether a profile is the name of a grid file: NAME.toml, of printable characters."""
+    return name.endswith(".toml") and name.isprintable() and len(name) <= NAME_LENGTH
+
+
+def monotonic(values: np.ndarray) -> bool:
+    """Whether the numbers strictly rise or strictly fall, as those of a CF coordinate variable must."""
+    return bool((values[1:] > values[:-1]).all() or (values[1:] < values[:-1]).all())
 
 
 @dataclass(frozen=True)
@@ -72,7 +84,8 @@ class Layout:
     Attributes:
         path: absolute path of the group, such as "/pendulum/libration".
         long_name: what it holds, in words.
-        instances: the inputs that make one problem an element; the first names the axis.  Empty for a single problem.
+        instances: the inputs that make one problem an element; the first names the axis where there is no ``index``.
+            Empty for a single problem.
         over: for each ``Row.over`` that occurs besides "once", the coordinate that the row runs along.
         parameters: inputs that are the same for the whole group, stored as its attributes.
         rows: the rows stored.
@@ -80,6 +93,7 @@ class Layout:
         reference: where the closed form is published.
         statement: the problem in one line: its equation and its start.
         difficulty: how hard it is on an integrator, "lower", "average" or "higher", and why.
+        index: labels 0, 1, 2, ... of instances that are in no order by any one of their inputs, as points in a plane.
     """
 
     path: str
@@ -92,21 +106,36 @@ class Layout:
     reference: str
     statement: str = ""
     difficulty: str = ""
+    index: Coordinate | None = None
+
+    @property
+    def first(self) -> tuple[Coordinate, ...]:
+        """The axis of the instances: their index or their first input; empty for a single problem."""
+        return self.instances[:1] if self.index is None else (self.index,)
 
     @property
     def axes(self) -> tuple[Coordinate, ...]:
         """The coordinates that are dimensions."""
-        return (*self.instances[:1], *self.over.values())
+        return (*self.first, *self.over.values())
+
+    @property
+    def auxiliary(self) -> tuple[Coordinate, ...]:
+        """The inputs of the instances that are no dimensions."""
+        return self.instances[1:] if self.index is None else self.instances
 
     @property
     def coordinates(self) -> tuple[Coordinate, ...]:
         """Every one-dimensional input, axes first."""
-        return (*self.axes, *self.instances[1:])
+        return (*self.axes, *self.auxiliary)
+
+    @property
+    def given(self) -> tuple[Coordinate, ...]:
+        """The coordinates whose numbers are chosen: all but an index, which counts."""
+        return tuple(coordinate for coordinate in self.coordinates if coordinate is not self.index)
 
     def dimension_of(self, coordinate: str) -> str:
-        """The name of the axis that a coordinate runs along: its own, or for further instance inputs the first's."""
-        further = {extra.name for extra in self.instances[1:]}
-        return self.instances[0].name if coordinate in further else coordinate
+        """The name of the axis that a coordinate runs along: its own, or for auxiliary ones that of the instances."""
+        return self.first[0].name if coordinate in {extra.name for extra in self.auxiliary} else coordinate
 
     @property
     def variables(self) -> tuple[Component, ...]:
@@ -119,7 +148,7 @@ class Layout:
 
     def _dims(self, row: Row) -> tuple[str, ...]:
         along = () if row.over == "once" else (self.over[row.over].name,)
-        return (*(axis.name for axis in self.instances[:1]), *along)
+        return (*(axis.name for axis in self.first), *along)
 
 
 @dataclass(frozen=True)
@@ -170,6 +199,8 @@ class Block:
 class Group:
     """A layout with numbers: ``parameters`` by name, ``inputs`` as one-dimensional arrays by coordinate name.
 
+    An index is counted where it is not given; zero has no sign.
+
     ``taylor_elements`` bounds how many arguments of a block the Taylor route is asked for, from the first: a route
     that integrates costs as much as its last time is late.
 
@@ -184,13 +215,16 @@ class Group:
     taylor_elements: int | None = None
 
     def __post_init__(self) -> None:
-        wanted = {coordinate.name: coordinate for coordinate in self.layout.coordinates}
+        wanted = {coordinate.name: coordinate for coordinate in self.layout.given}
+        index = "" if self.layout.index is None else self.layout.index.name
         parameters = {parameter.name for parameter in self.layout.parameters}
-        if set(self.inputs) != set(wanted) or set(self.parameters) != parameters:
+        if set(self.inputs) - {index} != set(wanted) or set(self.parameters) != parameters:
             raise ValueError(
                 f"{self.layout.path} needs the inputs {sorted(wanted)} and parameters {sorted(parameters)}."
             )
         arrays = {name: _unsigned(np.asarray(self.inputs[name], dtype=wanted[name].dtype)) for name in wanted}
+        if self.layout.index is not None:
+            arrays |= self._counted(self.layout.index, next(iter(arrays.values())).size)
         for name, array in arrays.items():
             if array.ndim != 1 or not array.size or not np.isfinite(array).all():
                 raise ValueError(f"{self.layout.path}/{name} must be a non-empty list of finite numbers.")
@@ -199,13 +233,20 @@ class Group:
         object.__setattr__(self, "inputs", arrays)
         object.__setattr__(self, "parameters", {name: value + 0.0 for name, value in self.parameters.items()})
 
+    def _counted(self, index: Coordinate, count: int) -> dict[str, np.ndarray]:
+        """The index 0, 1, 2, ..., which may have been given as that and nothing else."""
+        counted = np.arange(count, dtype=index.dtype)
+        if not np.array_equal(self.inputs.get(index.name, counted), counted):
+            raise ValueError(f"{self.layout.path}/{index.name} counts its elements 0, 1, 2, ...; it cannot be chosen.")
+        return {index.name: counted}
+
     def size(self, dims: tuple[str, ...]) -> tuple[int, ...]:
         """The shape that belongs to these dimensions."""
         return tuple(self.inputs[name].size for name in dims)
 
     def blocks(self) -> Iterator[Block]:
         """The work of this group in the order of storage."""
-        first = self.layout.instances[:1]
+        first = self.layout.first
         for element in range(self.inputs[first[0].name].size if first else 1):
             instance = {axis.name: self.inputs[axis.name][element].item() for axis in self.layout.instances}
             for row in self.layout.rows:
@@ -230,10 +271,23 @@ def _unsigned(numbers: np.ndarray) -> np.ndarray:
 
 @dataclass(frozen=True)
 class Plan:
-    """The groups of one dataset, and the name of the profile they make up."""
+    """The groups of one dataset, and the name of the profile they make up.
+
+    Raises:
+        ValueError: the numbers on an axis neither rise nor fall.
+    """
 
     profile: str
     groups: tuple[Group, ...]
+
+    def __post_init__(self) -> None:
+        for group in self.groups:
+            for axis in group.layout.axes:
+                if not monotonic(group.inputs[axis.name]):
+                    raise ValueError(
+                        f"{group.layout.path}/{axis.name} is an axis: its numbers must rise, or must fall, from each "
+                        "to the next."
+                    )
 
     def blocks(self) -> Iterator[Block]:
         """All the work, group by group."""

@@ -12,7 +12,7 @@ from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any, NoReturn
 
 from reference.interrupts import Terminated, terminable
-from reference.names import short, unknown
+from reference.names import printable, short, unknown
 from reference.underflow import require_gradual
 
 if TYPE_CHECKING:
@@ -173,8 +173,8 @@ def _give_up_a_full_output() -> None:
 def _sentence(error: Exception) -> str:
     if isinstance(error, OSError) and error.strerror:
         where = f" '{error.filename}'" if error.filename else ""
-        return f"{error.strerror}{where}."
-    return " ".join(str(error).split())
+        return printable(f"{error.strerror}{where}.")
+    return printable(" ".join(str(error).split()))
 
 
 def _silence_output() -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
@@ -24,10 +25,8 @@ if TYPE_CHECKING:
     from reference.problem import Row
     from reference.store import Dataset
 
-__all__ = ["Proof", "verify"]
+__all__ = ["Proof", "differs", "verify"]
 
-ZERO_OF_EITHER_SIGN: frozenset[str] = frozenset()
-"""Schema versions whose files may hold -0.0 for the proven +0.0."""
 TAYLOR_ELEMENTS = 6
 """Arguments a row that the Taylor route is asked for again, from the first."""
 
@@ -105,7 +104,7 @@ def verify(
         proof.first = (
             proof.first
             or decimal_fault(said, texts, ATTRIBUTE_LIMIT)
-            or measurement_fault(said, proof.row, proof.digits)
+            or measurement_fault(said.attrs, math.prod(said.shape), proof.row, proof.digits)
         )
     return list(proofs.values())
 
@@ -118,7 +117,7 @@ def _again(block: Block) -> tuple[np.ndarray, tuple[str, ...]]:
 def _group(dataset: Dataset, path: str) -> Group:
     """The group with the inputs that the file gives it."""
     layout = next(layout for layout in dataset.layouts if layout.path == path)
-    inputs = {axis.name: dataset[f"{path}/{axis.name}"].value for axis in layout.coordinates}
+    inputs = {axis.name: dataset[f"{path}/{axis.name}"].value for axis in layout.given}
     group = Group(layout, dataset.parameters[path], inputs)
     for block in group.blocks():
         try:
@@ -134,7 +133,6 @@ def _group(dataset: Dataset, path: str) -> Group:
 
 
 def _compare(dataset: Dataset, block: Block, limbs: np.ndarray, proofs: dict[tuple[str, str], Proof]) -> None:
-    either_sign = dataset.attrs["schema_version"] in ZERO_OF_EITHER_SIGN
     for component in block.layout.variables:
         if component.row.name != block.row.name:
             continue
@@ -142,7 +140,7 @@ def _compare(dataset: Dataset, block: Block, limbs: np.ndarray, proofs: dict[tup
         value, tail = dataset[proof.name].read(block.selection(component))
         stored = np.concatenate([np.reshape(value, (-1, 1)), np.reshape(tail, (-1, LIMBS - 1))], axis=1)
         proven = limbs[:, component.component]
-        differing = np.flatnonzero((_bits(stored, either_sign) != _bits(proven, either_sign)).any(axis=1))
+        differing = np.flatnonzero(differs(stored, proven, signed_zeros=dataset.schema.signed_zeros).any(axis=1))
         proof.elements += len(proven)
         proof.wrong += differing.size
         if differing.size and not proof.first:
@@ -157,10 +155,11 @@ NEGATIVE_ZERO = -(1 << 63)
 """The bits of -0.0 as an int64."""
 
 
-def _bits(limbs: np.ndarray, either_sign: bool) -> np.ndarray:
-    """Limbs by their bits, as every processor tells these apart; with ``either_sign`` -0.0 counts as 0.0."""
-    bits: np.ndarray = np.ascontiguousarray(limbs, dtype=np.float64).view(np.int64)
-    return np.where(bits == NEGATIVE_ZERO, 0, bits) if either_sign else bits
+def differs(stored: np.ndarray, proven: np.ndarray, *, signed_zeros: bool) -> np.ndarray:
+    """Where float64 numbers differ: in any bit, but for the sign of zero where ``signed_zeros`` may be stored."""
+    here, there = (np.ascontiguousarray(numbers, dtype=np.float64).view(np.int64) for numbers in (stored, proven))
+    other: np.ndarray = here != there
+    return other & ((here | there) != NEGATIVE_ZERO) if signed_zeros else other
 
 
 def _spelled(limbs: np.ndarray) -> str:

@@ -16,6 +16,7 @@ from pathlib import Path
 import pytest
 
 import reference
+from reference.store.schema import RELEASED
 
 ROOT = Path(__file__).parents[1]
 DOCUMENTS = sorted([*ROOT.glob("*.md"), *(ROOT / "docs").glob("*.md"), *(ROOT / "data").glob("*.md")])
@@ -160,6 +161,8 @@ def test_the_citation_file_has_what_its_format_requires():
     assert keys["cff-version"] == "1.2.0"
     assert {"title", "message", "authors", "version", "license", "type"} <= keys.keys()
     assert keys["type"] in {"software", "dataset"}
+    assert keys["license"] == "BSD-3-Clause"  # one: readers such as Zenodo's take no list
+    assert keys["date-released"] == RELEASED[keys["version"]]
 
 
 def test_the_changelog_keeps_its_format():

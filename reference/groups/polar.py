@@ -23,6 +23,7 @@ TAU_INSIDE = Coordinate("tau", "1", "time since the release in units of sqrt(r0/
 EPSILON = Coordinate("epsilon", "1", "size of the neighbouring curve's deviation")
 END_Z = Coordinate("end_z", "1", "height of the end point, r/r0")
 END_PHI = Coordinate("end_phi", "rad", "angle of the end point")
+END = Coordinate("end", "1", "number of the end point", "0, 1, 2, ...", whole=True)
 SOURCE = (
     "A. S. Parnovsky, Acta Physica Polonica A 93 (1998) Supplement, S-55; B. C. Carlson, Numer. Algorithms 10 (1995) 13"
 )
@@ -82,6 +83,7 @@ BOUNDARY = Layout(
     SOURCE,
     BOUNDARY_PROBLEM,
     "higher: a boundary-value problem, whose solutions end where the angle at z = 1 reaches 2 pi/3",
+    END,
 )
 TUNNEL_SOURCE = "G. Venezian, Am. J. Phys. 34 (1966) 701"
 TUNNEL_EQUATION = (

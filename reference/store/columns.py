@@ -51,8 +51,9 @@ def foreign_columns(path: Path) -> Iterator[Mapping[str, ForeignColumn]]:
     with file:
         found: dict[str, ForeignColumn] = {}
 
-        def keep(name: str, item: Any) -> None:
+        def keep(path: str | bytes, item: Any) -> None:
             if isinstance(item, h5py.Dataset) and item.shape is not None:
+                name = path if isinstance(path, str) else path.decode("utf-8", "backslashreplace")
                 found[name] = ForeignColumn(item)
                 for field in item.dtype.names or ():
                     found[field] = ForeignColumn(item, field)

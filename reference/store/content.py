@@ -6,8 +6,10 @@ from typing import TYPE_CHECKING, Any
 
 import h5py
 import numpy as np
-from h5py import h5o
+from h5py import h5a, h5o
 
+from reference.names import short
+from reference.store.attributes import refusal, text_of, value_of
 from reference.store.errors import DatasetError
 from reference.store.fingerprint import Digest, pieces
 from reference.store.schema import PROVENANCE
@@ -15,21 +17,7 @@ from reference.store.schema import PROVENANCE
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-__all__ = ["dimensions", "fingerprint", "parameters_of", "text_attribute"]
-
-
-def text_attribute(target: Any, name: str) -> str:
-    """A text attribute of a group or dataset.
-
-    Raises:
-        DatasetError: it is missing or no text.
-    """
-    if name not in target.attrs:
-        raise DatasetError(f"'{target.file.filename}': {target.name} has no attribute '{name}'.")
-    value = target.attrs[name]
-    if not isinstance(value, (bytes, str)):
-        raise DatasetError(f"'{target.file.filename}': the attribute '{name}' of {target.name} is no text.")
-    return value if isinstance(value, str) else value.decode()
+__all__ = ["dimensions", "fingerprint", "parameters_of"]
 
 
 def parameters_of(group: h5py.Group) -> dict[str, float]:
@@ -38,13 +26,13 @@ def parameters_of(group: h5py.Group) -> dict[str, float]:
     Raises:
         DatasetError: one that it names is not there as a finite float64.
     """
-    names = text_attribute(group, "parameters").split() if "parameters" in group.attrs else []
+    names = text_of(group, "parameters").split() if h5a.exists(group.id, b"parameters") else []
     found = {}
     for name in names:
-        number = group.attrs.get(name)
-        if not isinstance(number, np.float64) or not np.isfinite(number):
-            raise DatasetError(f"'{group.file.filename}': the parameter '{name}' of {group.name} is no finite float64.")
-        found[name] = float(number)
+        number = value_of(group, name)
+        if not isinstance(number, float) or not np.isfinite(number):
+            raise refusal(group, f"has the parameter '{short(name)}', which is no finite float64")
+        found[name] = number
     return found
 
 
@@ -76,19 +64,20 @@ def dimensions(file: h5py.File) -> dict[str, tuple[str, ...]]:
     return {path: tuple(name for (name,) in names) for path, names in axes.items()}
 
 
-def fingerprint(file: h5py.File) -> str:
+def fingerprint(file: h5py.File, *, signed_zeros: bool) -> str:
     """The fingerprint of an open file: every number is read, piece by piece, and must be finite.
 
     Raises:
-        DatasetError: a number is not finite, or what the fingerprint needs is not there.
+        DatasetError: a number is not finite, or is -0.0 without ``signed_zeros``, or what the fingerprint needs is not
+            there.
     """
     digest = Digest()
     dims = dimensions(file)
     for path, found in sorted(_objects(file), key=lambda pair: pair[0]):
         if isinstance(found, h5py.Dataset):
-            described = text_attribute(found, "units"), text_attribute(found, "definition")
-            digest.dataset(path, found.shape, dims[path], described, _parts(found), found.dtype)
-        elif "parameters" in found.attrs:
+            described = text_of(found, "units"), text_of(found, "definition")
+            digest.dataset(path, found.shape, dims[path], described, _parts(found, signed_zeros), found.dtype)
+        elif h5a.exists(found.id, b"parameters"):
             digest.group(path, parameters_of(found))
     return digest.hexdigest()
 
@@ -102,9 +91,11 @@ def _objects(group: h5py.Group) -> Iterator[tuple[str, Any]]:
             yield from _objects(found)
 
 
-def _parts(dataset: h5py.Dataset) -> Iterator[np.ndarray]:
+def _parts(dataset: h5py.Dataset, signed_zeros: bool) -> Iterator[np.ndarray]:
     for selection in pieces(dataset.shape):
         part = dataset[selection]
         if not np.isfinite(part).all():
-            raise DatasetError(f"'{dataset.file.filename}': {dataset.name} has an element that is not finite.")
+            raise refusal(dataset, "has an element that is not finite")
+        if not signed_zeros and (np.signbit(part) & (part == 0)).any():
+            raise refusal(dataset, "has an element -0.0; zero has no sign there")
         yield part

@@ -32,7 +32,8 @@ def to_xarray(dataset: Dataset, group: str | None = None) -> Any:
     data: dict[str, Any] = {}
     for variable in members:
         short = variable.name.rpartition("/")[2]
-        data[short] = (variable.dims, variable.value, variable.attrs)
+        attributes = {key: value for key, value in variable.attrs.items() if key != "coordinates"}
+        data[short] = (variable.dims, variable.value, attributes)  # xarray writes "coordinates" itself
         if not variable.is_input:
             data[f"{short}_tail"] = ((*variable.dims, "limb"), variable.tail, {"units": variable.units})
     inputs = {variable.name.rpartition("/")[2] for variable in members if variable.is_input}

@@ -12,8 +12,9 @@ import numpy as np
 
 from reference.names import unknown
 from reference.once import cached_property
+from reference.store.attributes import SCALE_NAMES, text_of
 from reference.store.checksums import check_checksum
-from reference.store.content import fingerprint, parameters_of, text_attribute
+from reference.store.content import fingerprint, parameters_of
 from reference.store.errors import DatasetError
 from reference.store.files import regular_file
 from reference.store.inspection import SIGNATURE, inspect
@@ -23,6 +24,7 @@ if TYPE_CHECKING:
     import os
 
     from reference.plan import Layout
+    from reference.store.schema import Schema
 
 __all__ = ["CORE_NAME", "Dataset", "Variable", "core_path", "load"]
 
@@ -41,8 +43,8 @@ def core_path() -> Path:
 def load(path: str | os.PathLike[str] | None = None) -> Dataset:
     """Check a dataset and return it; without a path, the core dataset that ships with the package.
 
-    The checks: checksum beside the file where there is one, signature, every object against the schema, every number
-    finite, and the fingerprint over all of it.
+    The checks: checksum beside the file where there is one, signature, every object and attribute against the schema,
+    every number finite, and the fingerprint over all of it.  Every published schema version is read.
 
     Raises:
         FileNotFoundError: there is no such file.
@@ -68,11 +70,13 @@ def _checked(path: Path) -> Dataset:
     before = _stamp(path)
     try:
         with h5py.File(path, "r") as file:
-            layouts = inspect(file, path.stat().st_size)
-            _check_fingerprint(file)
+            inspection = inspect(file, path.stat().st_size)
+            schema, layouts = inspection.schema, inspection.layouts
+            _check_fingerprint(file, schema)
+            inspection.check_decimals()
             groups = {layout.path.strip("/"): _plain(file[layout.path]) for layout in layouts}
             parameters = {layout.path: parameters_of(file[layout.path]) for layout in layouts}
-            return Dataset(path, _plain(file), groups, _plain(file[PROVENANCE]), layouts, parameters, before)
+            return Dataset(path, _plain(file), groups, _plain(file[PROVENANCE]), schema, layouts, parameters, before)
     except DatasetError:
         raise
     except DAMAGE as error:
@@ -80,8 +84,8 @@ def _checked(path: Path) -> Dataset:
         raise DatasetError(f"'{path}' is truncated or damaged: {reason}.") from None
 
 
-def _check_fingerprint(file: h5py.File) -> None:
-    noted, found = text_attribute(file, "fingerprint"), fingerprint(file)
+def _check_fingerprint(file: h5py.File, schema: Schema) -> None:
+    noted, found = text_of(file, "fingerprint"), fingerprint(file, signed_zeros=schema.signed_zeros)
     if noted != found:
         raise DatasetError(f"'{file.filename}': the fingerprint of its content is {found}, not {noted}: it is altered.")
 
@@ -92,11 +96,10 @@ def _stamp(path: Path) -> tuple[int, int, int]:
 
 
 def _plain(target: Any) -> dict[str, Any]:
-    """Attributes as Python values, without those of HDF5's dimension scales."""
-    hidden = {"CLASS", "NAME", "DIMENSION_LIST", "REFERENCE_LIST"}
+    """Attributes as Python values, without those that HDF5 and netCDF-4 keep."""
     found = {}
     for name in sorted(target.attrs):
-        if name not in hidden:
+        if name not in SCALE_NAMES:
             value = target.attrs[name]
             found[name] = value.decode() if isinstance(value, bytes) else value.tolist()
     return found
@@ -159,6 +162,7 @@ class Dataset(Mapping[str, Variable]):
     attrs: dict[str, Any] = field(repr=False)
     groups: dict[str, dict[str, Any]] = field(repr=False)
     provenance: dict[str, Any] = field(repr=False)
+    schema: Schema = field(repr=False)
     layouts: tuple[Layout, ...] = field(repr=False)
     parameters: dict[str, dict[str, float]] = field(repr=False)
     _checked_as: tuple[int, int, int] = field(repr=False)
@@ -174,7 +178,7 @@ class Dataset(Mapping[str, Variable]):
         with self._open() as file:
             for layout in self.layouts:
                 inputs = {coordinate.name for coordinate in layout.coordinates}
-                for array in arrays(layout):
+                for array in arrays(layout, self.schema):
                     if LIMB in array.dims:
                         continue
                     dataset = file[f"{layout.path}/{array.name}"]

@@ -10,7 +10,6 @@ import numpy as np
 from h5py import h5d, h5p, h5s, h5t
 
 from reference.interrupts import held
-from reference.plan import BLOCK_LENGTH
 from reference.store.content import fingerprint
 from reference.store.schema import (
     ATTRIBUTE_LIMIT,
@@ -19,12 +18,14 @@ from reference.store.schema import (
     PROVENANCE,
     TAIL_LIMBS,
     arrays,
+    chunks,
     exact_texts,
     group_attributes,
     limb_axis,
     root_attributes,
 )
 from reference.store.sink import Sink
+from reference.store.versions import NEWEST
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping
@@ -70,8 +71,9 @@ class Writer:
     def finish(self, version: str, profile: str, provenance: Mapping[str, str]) -> str:
         """Add the root's attributes, where it all came from, and the fingerprint, which is returned."""
         _describe(self._file.create_group(PROVENANCE), provenance)
-        found = fingerprint(self._file)
-        _describe(self._file, {**root_attributes(version, profile), "fingerprint": found})
+        found = fingerprint(self._file, signed_zeros=NEWEST.signed_zeros)
+        described = root_attributes(NEWEST, version, profile, provenance.get("date", ""))
+        _describe(self._file, {**described, "fingerprint": found})
         return found
 
 
@@ -98,7 +100,7 @@ def _create_group(file: h5py.File, group: Group, limb: h5py.Dataset) -> None:
     target = file.create_group(layout.path)
     _describe(target, group_attributes(layout, group.parameters))
     scales = {LIMB: limb}
-    for array in arrays(layout):
+    for array in arrays(layout, NEWEST):
         shape = (*group.size(array.dims[:-1]), TAIL_LIMBS) if array.dims[-1] == LIMB else group.size(array.dims)
         data = group.inputs.get(array.name)
         dataset = _create(target, array, shape, data)
@@ -111,11 +113,8 @@ def _create_group(file: h5py.File, group: Group, limb: h5py.Dataset) -> None:
 
 def _create(parent: h5py.Group, array: Array, shape: tuple[int, ...], data: np.ndarray | None) -> h5py.Dataset:
     """A dataset in chunks of one block, with Fletcher32, allocation and fill times set, and no timestamp."""
-    chunk = tuple(min(length, BLOCK_LENGTH) for length in shape)
-    if data is None and len([name for name in array.dims if name != LIMB]) > 1:
-        chunk = (1, *chunk[1:])
     properties = h5p.create(h5p.DATASET_CREATE)
-    properties.set_chunk(chunk)
+    properties.set_chunk(chunks(array, shape))
     properties.set_fletcher32()
     properties.set_alloc_time(h5d.ALLOC_TIME_INCR)
     properties.set_fill_time(h5d.FILL_TIME_ALLOC)
@@ -128,15 +127,13 @@ def _create(parent: h5py.Group, array: Array, shape: tuple[int, ...], data: np.n
     if array.is_scale:
         dataset.make_scale(array.name)
     _describe(dataset, array.attributes)
-    if "flag_meanings" in array.attributes:
-        dataset.attrs.create("flag_values", np.arange(shape[0], dtype="<i4"))
     if data is not None and array.name != LIMB and array.dtype.kind == "f" and data.size <= FEW:
         _describe(dataset, exact_texts([float(number) for number in data]))
     return dataset
 
 
-def _describe(target: Any, attributes: Mapping[str, str | float | int]) -> None:
-    """Attributes as fixed-length UTF-8, float64 or int32."""
+def _describe(target: Any, attributes: Mapping[str, str | float | int | tuple[int, ...]]) -> None:
+    """Attributes as fixed-length UTF-8, float64 or int32, or a list of int32."""
     for name, value in attributes.items():
         if isinstance(value, str):
             data = value.encode()

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import json
+import re
 import subprocess
 
 import h5py
@@ -20,6 +21,7 @@ from reference.problems.pendulum import Pendulum
 from reference.store import DatasetError, core_path, load
 from reference.store.fingerprint import pieces
 from reference.store.schema import arrays
+from reference.store.versions import NEWEST
 
 
 def datasets(file):
@@ -44,7 +46,7 @@ def test_every_axis_has_one_dimension_scale_with_its_name(built):
     with h5py.File(built) as file:
         assert file["limb"].is_scale
         group = file["pendulum/libration"]
-        for array in arrays(groups.LIBRATION):
+        for array in arrays(groups.LIBRATION, NEWEST):
             dataset = group[array.name]
             assert bool(dataset.is_scale) == array.is_scale
             if not array.is_scale:
@@ -115,6 +117,7 @@ def test_root_says_licence_conventions_and_what_inputs_are(built):
     assert attributes["inputs"] == "exact binary64"
     assert attributes["version"] == reference.__version__
     assert attributes["command"] == "python -m reference build --profile core"
+    assert attributes["history"] == f"python -m reference build --profile core (horologium {reference.__version__})"
 
 
 def test_fingerprint_is_the_documented_hash(built):
@@ -203,12 +206,12 @@ def test_a_layout_with_one_problem_and_inputs_beside_the_axis_describes_its_arra
     state = Pendulum.rows[:1]
     time = Coordinate("time", "s", "time")
     single = Layout("/a/single", "one", (), {"time": time}, (), state, Pendulum, "here")
-    assert [array.dims for array in arrays(single)][:2] == [("time",), ("time",)]
+    assert [array.dims for array in arrays(single, NEWEST)][:2] == [("time",), ("time",)]
     group = Group(single, {}, {"time": [0.0, 1.0]})
     assert [block.selection(single.variables[0]) for block in group.blocks()] == [(slice(0, 2),)]
     ends = Coordinate("end_x", "m", "x"), Coordinate("end_y", "m", "y")
     pairs = Layout("/a/pairs", "two", ends, {"time": time}, (), state, Pendulum, "here")
-    assert {array.name: array.dims for array in arrays(pairs)}["end_y"] == ("end_x",)
+    assert {array.name: array.dims for array in arrays(pairs, NEWEST)}["end_y"] == ("end_x",)
     with pytest.raises(ValueError, match=r"differ in length"):
         Group(pairs, {}, {"end_x": [1.0, 2.0], "end_y": [1.0], "time": [0.0]})
     curve = Coordinate("curve", "1", "curve", meanings=("line", "parabola"))
@@ -259,14 +262,15 @@ def test_the_numbers_of_a_checked_dataset_cannot_be_changed(built):
                 array[0] = 1
 
 
-def test_a_citation_is_dated_where_the_file_is_and_only_there(built, tmp_path, monkeypatch):
+def test_a_citation_has_the_year_of_the_file_or_of_its_version(built, tmp_path, monkeypatch):
     from reference.build import build
     from reference.cite import cite
 
-    assert "year" not in cite(load(built))
-    assert cite(load(built), "text").startswith("The Horologium developers. Horologium:")
+    assert "  year      = {2026},\n" in cite(load(built))
+    assert cite(load(built), "text").startswith("The Horologium developers (2026). Horologium:")
     monkeypatch.setenv("SOURCE_DATE_EPOCH", "86400")
     build(SMALL, tmp_path / "dated.h5")
+    assert load(tmp_path / "dated.h5").attrs["history"].startswith("1970-01-02T00:00:00+00:00 python -m reference")
     assert "  year      = {1970},\n" in cite(load(tmp_path / "dated.h5"))
     assert cite(load(tmp_path / "dated.h5"), "text").startswith("The Horologium developers (1970). Horologium:")
 
@@ -289,6 +293,19 @@ def test_the_datasheet_has_a_page_for_each_group(built):
     assert f"| `period` | {period} |" in datasheet(dataset, "pendulum/libration")
     with pytest.raises(ValueError, match=r"^group 'pendulum/libation' is unknown, perhaps pendulum/libration"):
         datasheet(dataset, "pendulum/libation")
+
+
+def test_every_row_of_a_table_has_the_cells_of_its_heading(built):
+    """A bar in a definition, such as a = |theta0|, is no border."""
+    from reference.datasheet import datasheet
+
+    sheet = datasheet(load(built))
+    assert r"dT/da, a = \|theta0\|" in sheet
+    width = 0
+    for line in sheet.splitlines():
+        cells = len(re.findall(r"(?<!\\)\|", line)) if line.startswith("|") else 0
+        assert not (width and cells and cells != width), line
+        width = cells
 
 
 def test_the_datasheet_explains_a_number_of_the_file_itself(built):

@@ -9,6 +9,7 @@ import pytest
 from reference.store import DatasetError, load
 from reference.store.checksums import note_checksum
 from reference.store.files import sha256
+from reference.store.schema import exact_texts
 
 
 def refused(path, *words):
@@ -93,7 +94,7 @@ def test_a_missing_file_is_a_file_not_found_error(tmp_path):
 
 
 def say(target, name, text):
-    target.attrs.create(name, text.encode(), dtype=h5py.string_dtype("utf-8", len(text)))
+    target.attrs.create(name, text.encode(), dtype=h5py.string_dtype("utf-8", len(text.encode())))
 
 
 def other_schema(file):
@@ -237,8 +238,26 @@ def no_scale(file):
 
 
 def variable_length_text(file):
-    file["pendulum"].attrs["note"] = "variable length"
-    return "/pendulum", "note"
+    file["pendulum/libration"].attrs["long_name"] = "variable length"
+    return "/pendulum/libration", "'long_name' of an unexpected type or size"
+
+
+def other_chunks(file):
+    replaced(file, chunks=(1,))
+    return "/pendulum/libration/period", "chunks of the shape (1,), not the schema's"
+
+
+def falling_after_rising(file):
+    time = file["pendulum/libration/time"]
+    time[1] = 5.0
+    for name, text in exact_texts(time[...].tolist()).items():
+        say(time, name, text)
+    return "/pendulum/libration/time", "neither rise nor fall"
+
+
+def negative_zero(file):
+    file["pendulum/libration/omega"][0, 0] = -0.0
+    return "/pendulum/libration/omega", "-0.0"
 
 
 TAMPERINGS = (
@@ -265,6 +284,9 @@ TAMPERINGS = (
     other_units,
     no_scale,
     variable_length_text,
+    other_chunks,
+    falling_after_rising,
+    negative_zero,
 )
 
 
@@ -278,7 +300,7 @@ def test_what_is_not_of_the_schema_is_refused_by_name(copy, tampering):
 def test_another_schema_version_is_refused_with_both_versions_named(copy):
     with h5py.File(copy, "r+", libver=("v110", "v110")) as file:
         file.attrs.create("schema_version", b"99", dtype=h5py.string_dtype("utf-8", 2))
-    refused(copy, "'99'", "'2'")
+    refused(copy, "'99'", "'1', '2', '3' are read")
 
 
 @pytest.mark.parametrize(
@@ -289,6 +311,12 @@ def test_another_schema_version_is_refused_with_both_versions_named(copy):
         ("/", "Conventions", "CF-1.0"),
         ("/", "creators", "Somebody Else"),
         ("/", "command", "python -m reference build --profile full"),
+        ("/", "history", "by hand"),
+        ("/", "note", "not of the schema"),
+        ("/pendulum", "note", "not of the schema"),
+        ("/pendulum/libration", "decimal", "9.81"),
+        ("/pendulum/libration/theta_tail", "taylor_digits", "60"),
+        ("/pendulum/libration/theta", "flag_meanings", "a b"),
         ("/pendulum/libration", "g_decimal", "9.82"),
         ("/pendulum/libration", "g_hex", "0x1.0p+3"),
         ("/pendulum/libration", "g_units", "ft s-2"),
@@ -306,6 +334,28 @@ def test_an_attribute_that_says_something_else_than_schema_or_numbers_is_refused
     with h5py.File(copy, "r+", libver=("v110", "v110")) as file:
         say(file[path], name, text)
     refused(copy, f"{path} has the attribute '{name}'")
+
+
+@pytest.mark.parametrize(
+    ("path", "name", "text", "words"),
+    [
+        ("/", "version", "99.0", "is of version '99.0'; 0.1.0 is known"),
+        ("/", "version", "99.0.0", "is of version '99.0.0'; 0.1.0 is known"),
+        ("/", "version", "\x1b[31m0.1.0", "is of version '\\x1b[31m0.1.0'"),
+        ("/", "profile", "cor", "has the profile 'cor'"),
+        ("/", "profile", "a\u202e.toml", "has the profile 'a\\u202e.toml'"),
+        ("/", "profile", "x" * 300 + ".toml", "has the profile 'xxxxx"),
+        ("/", "fingerprint", "0" * 63, "'fingerprint' of 64 hexadecimal digits"),
+        ("/provenance", "date", "yesterday", "has the date 'yesterday'"),
+        ("/provenance", "cpu", "\x9b2J", "'cpu', which is not one line of text"),
+        ("/provenance", "cpu", "two\nlines", "'cpu', which is not one line of text"),
+        ("/provenance", "c\u200bpu", "x", "'c\\u200bpu'; names of small letters"),
+    ],
+)
+def test_what_a_file_says_freely_has_its_form(copy, path, name, text, words):
+    with h5py.File(copy, "r+", libver=("v110", "v110")) as file:
+        say(file[path], name, text)
+    refused(copy, f": {path} ", words)
 
 
 @pytest.mark.parametrize(("path", "name"), [("/", "license"), ("/pendulum/libration", "g_units")])
