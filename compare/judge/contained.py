@@ -61,6 +61,7 @@ def contained(options: dict[str, Any], form: str) -> Answer:
     name = str(options["step"]).rpartition(":")[2]
     with _process({"options": options, "form": form}) as (process, messages):
         stages = (
+            (None, ""),
             (seconds, f"{options['step']} took more than {seconds:g} s to be imported"),
             (max(seconds, SECONDS), f"{options['step']} keeps the judge from being imported"),
             (seconds + GRACE, f"{name} took more than {seconds:g} s and had to be ended"),

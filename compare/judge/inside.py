@@ -76,6 +76,7 @@ def _answer(line: _Line, request: dict[str, Any]) -> dict[str, Any]:
     from reference.terminal import sentence
 
     options = request["options"]
+    line.say({"stage": "begun"})
     try:
         step = loaded(options["step"])
         line.say({"stage": "loaded"})
