@@ -18,7 +18,7 @@ from reference.underflow import require_gradual
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
 
-__all__ = ["Parser", "one_of", "progress_bar", "run"]
+__all__ = ["Parser", "one_of", "progress_bar", "run", "sentence"]
 
 CHOICE = re.compile(r"invalid choice: (.*?) \(choose from (.*)\)$")
 SIGNED = re.compile(r"-(\d|\.\d|inf|nan)", re.IGNORECASE)
@@ -127,7 +127,7 @@ def run(command: Callable[[Sequence[str] | None], int], arguments: Sequence[str]
             sys.stderr.write("terminated.\n")
             return TERMINATED
         except (OSError, ValueError, ImportError, ArithmeticError, RuntimeError) as error:
-            sys.stderr.write(f"error: {_sentence(error)}\n")
+            sys.stderr.write(f"error: {sentence(error)}\n")
             _give_up_a_full_output()
             return 2
         return code
@@ -170,7 +170,8 @@ def _give_up_a_full_output() -> None:
         _silence_output()
 
 
-def _sentence(error: Exception) -> str:
+def sentence(error: Exception) -> str:
+    """What an error says, in one sentence."""
     if isinstance(error, OSError) and error.strerror:
         where = f" '{error.filename}'" if error.filename else ""
         return printable(f"{error.strerror}{where}.")

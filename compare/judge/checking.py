@@ -17,6 +17,7 @@ from compare.judge.energy import energy
 from compare.judge.engine import Lanes, Traced, chosen, repeatable
 from compare.judge.field import Exhausted, MisuseError
 from compare.judge.forms import form_of
+from compare.judge.limits import SECONDS
 from compare.judge.order import ladder, measured
 from compare.judge.record import Check, Claims
 from compare.judge.scene import Frame, Scene, scale_of_time
@@ -31,8 +32,6 @@ if TYPE_CHECKING:
 
 __all__ = ["check"]
 
-SECONDS = 60.0
-"""Time after which a check is given up."""
 SPAN = 20
 """The order is measured over so many of the steps at which defects are: about one period."""
 CALLS = 100_000
@@ -59,6 +58,11 @@ def check(
     seconds: float = SECONDS,
 ) -> Check:
     """Measure an integrator, and hold what it claims against what was measured.
+
+    The step runs in the caller's process, so that it may be a lambda, a closure or compiled by JAX; what one does to
+    the process cannot be contained there: ``os._exit``, a crash, closed files, a fork, memory, changed signal handlers,
+    a loop in compiled code that no timer stops, or a KeyboardInterrupt of its own.  The command line runs it in a
+    process that is ended.
 
     Args:
         step: ``step(f, y, h)`` gives the state a step later; ``step(f, t, y, h)`` if it takes the time;
