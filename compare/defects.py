@@ -160,14 +160,14 @@ def _ways_back(runs: Sequence[Run]) -> list[WayBack]:
     """Of each run; where it is lost also from an end close by, which tells how far the way back carries roundings."""
     found = [WayBack(math.nan, 0.0)] * len(runs)
     ends = {i: end for i, run in enumerate(runs) if (end := _turned(run)) is not None}
-    near = {i: tuple(runs[i].course.fmt.round(value * NEXT) for value in end) for i, end in ends.items() if runs[i].lost}
+    near = {
+        i: tuple(runs[i].course.fmt.round(value * NEXT) for value in end) for i, end in ends.items() if runs[i].lost
+    }
     if ends:
         lanes = [_back(runs[i].course, end) for starts in (ends, near) for i, end in starts.items()]
         with np.errstate(over="ignore", invalid="ignore"):
             marches = march(runs[0].method, lanes, runs[0].course.fmt)
-            gaps = [
-                _gaps(runs[i].course, result.states[-1]) for i, result in zip([*ends, *near], marches, strict=True)
-            ]
+            gaps = [_gaps(runs[i].course, result.states[-1]) for i, result in zip([*ends, *near], marches, strict=True)]
         others = dict(zip(near, gaps[len(ends) :], strict=True))
         for i, gap in zip(ends, gaps, strict=False):
             apart = float(np.max(np.abs(gap - others[i]))) if i in near else 0.0
@@ -194,4 +194,5 @@ def _gaps(course: Course, state: np.ndarray) -> np.ndarray:
     starts = [fmt.round(-value if i in odd else value) for i, value in enumerate(course.problem.start)]
     back = [exactly(value) for value in state]
     gaps = [math.nan if value is None else float(value - start) for value, start in zip(back, starts, strict=True)]
-    return np.array(gaps) / course.reach.sizes
+    found: np.ndarray = np.divide(gaps, course.reach.sizes)
+    return found

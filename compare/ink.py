@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 import matplotlib as mpl
 from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.text import Text
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -24,6 +25,8 @@ _DASHES: tuple[Any, ...] = ("-", (0, (5, 1.5)), (0, (1.2, 1.2)), (0, (5, 1.2, 1.
 
 MARGIN = 0.01
 """Of a figure's width, at its edge."""
+PANEL = 0.9
+"""Of the width of a column of panels, for the title of one."""
 SMALLEST = 0.75
 """A text in one line is at least so large, over what it would be."""
 
@@ -92,19 +95,18 @@ def saved(figure: Any) -> dict[str, bytes]:
 
 def fit(figure: Any) -> None:
     """Write in two lines, or smaller, what would leave the figure: titles, labels, and the names of curves."""
-    renderer = FigureCanvasAgg(figure).get_renderer()
-    across = figure.bbox.width
-    for text in (*figure.texts, figure._suptitle, figure._supxlabel):  # noqa: SLF001 - figure.texts has not these
-        if text is not None:
-            begins = text.get_window_extent(renderer).x0 if text.get_horizontalalignment() == "left" else 0.0
-            _narrow(text, across - max(begins, 0.0) - MARGIN * across, renderer, lines=True)
-    columns = max((axes.get_gridspec().ncols for axes in figure.axes if axes.get_gridspec() is not None), default=1)
+    renderer, across = FigureCanvasAgg(figure).get_renderer(), figure.bbox.width
+    for text in figure.texts:
+        begins = text.get_window_extent(renderer).x0 if text.get_horizontalalignment() == "left" else 0.0
+        _narrow(text, (1 - MARGIN) * across - max(begins, 0.0), renderer, lines=True)
+    grids = [axes.get_gridspec() for axes in figure.axes]
+    columns = max((grid.ncols for grid in grids if grid is not None), default=1)
     for axes in figure.axes:
-        _narrow(axes.title, across / columns * (1 - 0.1), renderer)
-        for text in axes.texts:
-            beyond = text.get_window_extent(renderer)
-            if beyond.x1 > across:
-                _narrow(text, across - beyond.x0 - MARGIN * across, renderer)
+        for text in axes.findobj(Text, include_self=False):
+            if text in axes.texts:
+                _narrow(text, (1 - MARGIN) * across - text.get_window_extent(renderer).x0, renderer)
+            elif text in axes.get_children():
+                _narrow(text, PANEL * across / columns, renderer)
 
 
 def _narrow(text: Any, room: float, renderer: Any, *, lines: bool = False) -> None:

@@ -31,7 +31,17 @@ if TYPE_CHECKING:
     from compare.trace import Block
     from reference.problem import Problem
 
-__all__ = ["INLINE_SINE", "Lane", "March", "StartInvariant", "converged", "iterations_for", "march", "march_alone", "sample_steps"]
+__all__ = [
+    "INLINE_SINE",
+    "Lane",
+    "March",
+    "StartInvariant",
+    "converged",
+    "iterations_for",
+    "march",
+    "march_alone",
+    "sample_steps",
+]
 
 CLOCKED_RUNS, BRIEF = 3, 0.02
 """A march alone of less than BRIEF seconds is clocked this often."""

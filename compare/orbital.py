@@ -58,7 +58,7 @@ def orbital_reach(course: Course) -> OrbitalReach:
 def early_reach(problem: Problem, end: Fraction) -> OrbitalReach:
     """Of a problem that has orbits, to a time that need not be one of a march's."""
     times = [end * i / EARLY_STATES for i in range(1, EARLY_STATES + 1)]
-    return _reach(problem, _hashable(problem.state(times)), end)
+    return _reach(problem, _hashable(problem.state(times, limbs=2)), end)
 
 
 def _hashable(states: np.ndarray) -> tuple[tuple[tuple[float, ...], ...], ...]:

@@ -139,7 +139,10 @@ def _probes(own: Sequence[int], courses: Sequence[Course], sizes: Sequence[float
 def _told(course: Course, result: March, errors: np.ndarray, neighbour: Course, other: March) -> np.ndarray:
     """What tells a march from its neighbour's, less what the distance of their starts makes of the truncation error."""
     drift = course.drift(result.states)[:, None]
-    gap, drifts = _known(errors - neighbour.errors(other.states)), _known(drift - neighbour.drift(other.states)[:, None])
+    gap, drifts = (
+        _known(errors - neighbour.errors(other.states)),
+        _known(drift - neighbour.drift(other.states)[:, None]),
+    )
     row = np.array([np.max(course.place(gap)), np.max(drifts), *np.max(gap, axis=0)])
     errors, drift = _known(errors), _known(drift)
     largest = np.array([np.max(course.place(errors)), np.max(drift), *np.max(errors, axis=0)])

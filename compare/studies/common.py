@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -20,8 +21,7 @@ from reference.problem import Problem
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
-    import math
-from fractions import Fraction
+    from fractions import Fraction
 
     from compare.precision import Precision
     from compare.scoring import Scored
