@@ -25,7 +25,7 @@ _DASHES: tuple[Any, ...] = ("-", (0, (5, 1.5)), (0, (1.2, 1.2)), (0, (5, 1.2, 1.
 
 MARGIN = 0.01
 """Of a figure's width, at its edge."""
-PANEL = 0.9
+PANEL = 0.8
 """Of the width of a column of panels, for the title of one."""
 SMALLEST = 0.75
 """A text in one line is at least so large, over what it would be."""
