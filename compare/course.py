@@ -106,10 +106,12 @@ class Course:
     def carried(self, errors: np.ndarray) -> float:
         """What errors [samples, state] of the component that the place is a function of make of the place.
 
-        They are of rounding alone, and the same in a neighbour.
+        They are of rounding alone, and the same in a neighbour.  A step that takes a slope there takes another one.
         """
         along = self.aspect.along
-        return 0.0 if along is None else float(np.max(self.reach.slopes * np.abs(errors[:, along])))
+        if along is None:
+            return 0.0
+        return float(np.max((self.reach.slopes + float(self.h) * self.reach.bends) * np.abs(errors[:, along])))
 
     @property
     def lane(self) -> Lane:

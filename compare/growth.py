@@ -15,7 +15,7 @@ import numpy as np
 from compare.aspects import conserves, period_of
 from compare.laws import enough, exponent_of
 from compare.march import march
-from compare.records import Growth
+from compare.records import FLOOR_FACTOR, Growth
 from compare.run import Run
 
 if TYPE_CHECKING:
@@ -42,16 +42,15 @@ def _of(run: Run) -> Iterator[Growth]:
     times = np.array([float(time) for time in course.times])
     period = period_of(course.problem)
     shortest = LEAST_PERIODS * period if math.isfinite(period) else 0.0
-    told = enough(times, shortest)
-    runs = _starts(run) if told and run.cell.floor else [run]
-    quantities: dict[str, Callable[[Run], np.ndarray]] = {"place": lambda one: one.place}
-    if run.orbital_known:
-        quantities["phase"] = lambda one: one.orbital[:, 0]
-    if conserves(course.problem):
-        quantities["energy"] = lambda one: one.drift
-    for name, errors in quantities.items():
-        known = [errors(one) for one in runs] if told else [np.full_like(times, math.nan)]
-        exponent = exponent_of(times, np.array(known), shortest)
+    told, several = enough(times, shortest), [run]
+    for name, errors, bound in _quantities(run):
+        known = errors(run) if told else np.full_like(times, math.nan)
+        floor = run.cell.floor if name == "place" else bool(np.max(np.abs(known)) <= FLOOR_FACTOR * bound)
+        if floor and told and len(several) == 1:
+            several = _starts(run)
+        runs = several if floor else [run]
+        marches = np.array([errors(one) for one in runs]) if told else known
+        exponent = exponent_of(times, marches, shortest, 0.0 if floor else bound)
         yield Growth(
             method=run.method.name,
             n=course.n,
@@ -63,8 +62,18 @@ def _of(run: Run) -> Iterator[Growth]:
             law=exponent.law,
             windows=exponent.windows,
             starts=len(runs),
-            floor=run.cell.floor,
+            floor=floor,
+            rounding=exponent.rounding,
         )
+
+
+def _quantities(run: Run) -> Iterator[tuple[str, Callable[[Run], np.ndarray], float]]:
+    """What grows: its name, its error at each sample, and a bound on rounding's part of the largest."""
+    yield "place", lambda one: one.place, run.rounding.place
+    if run.orbital_known:
+        yield "phase", lambda one: one.orbital[:, 0], run.phase_rounding
+    if conserves(run.course.problem):
+        yield "energy", lambda one: one.drift, run.rounding.drift
 
 
 def _starts(run: Run) -> list[Run]:

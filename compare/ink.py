@@ -3,21 +3,32 @@
 from __future__ import annotations
 
 import io
+import math
+import textwrap
 from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import matplotlib as mpl
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.text import Text
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
-__all__ = ["GREY", "Ink", "inks", "label_right", "saved", "spread", "style"]
+__all__ = ["GREY", "Ink", "fit", "inks", "label_right", "saved", "spread", "style"]
 
 GREY = "#767676"
 _OKABE_ITO = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000")
 _MARKERS = ("o", "s", "^", "D", "v", "P", "X", "<", ">", "h", "d", "p", "*")
 _DASHES: tuple[Any, ...] = ("-", (0, (5, 1.5)), (0, (1.2, 1.2)), (0, (5, 1.2, 1.2, 1.2)))
+
+MARGIN = 0.01
+"""Of a figure's width, at its edge."""
+PANEL = 0.8
+"""Of the width of a column of panels, for the title of one."""
+SMALLEST = 0.75
+"""A text in one line is at least so large, over what it would be."""
 
 _STYLE = {
     "font.size": 10,
@@ -72,13 +83,40 @@ def style() -> Iterator[None]:
 
 
 def saved(figure: Any) -> dict[str, bytes]:
-    """The figure as PNG and SVG, by suffix, with no date and no version inside."""
+    """The figure as PNG and SVG, by suffix, with no date and no version inside; every text lies within it."""
+    fit(figure)
     images = {}
     for suffix, metadata in (("png", {"Software": None}), ("svg", {"Date": None, "Creator": None})):
         buffer = io.BytesIO()
         figure.savefig(buffer, format=suffix, dpi=160, metadata=metadata)
         images[suffix] = buffer.getvalue()
     return images
+
+
+def fit(figure: Any) -> None:
+    """Write in two lines, or smaller, what would leave the figure: titles, labels, and the names of curves."""
+    renderer, across = FigureCanvasAgg(figure).get_renderer(), figure.bbox.width
+    for text in figure.texts:
+        begins = text.get_window_extent(renderer).x0 if text.get_horizontalalignment() == "left" else 0.0
+        _narrow(text, (1 - MARGIN) * across - max(begins, 0.0), renderer, lines=True)
+    grids = [axes.get_gridspec() for axes in figure.axes]
+    columns = max((grid.ncols for grid in grids if grid is not None), default=1)
+    for axes in figure.axes:
+        for text in axes.findobj(Text, include_self=False):
+            if text in axes.texts:
+                _narrow(text, (1 - MARGIN) * across - text.get_window_extent(renderer).x0, renderer)
+            elif text in axes.get_children():
+                _narrow(text, PANEL * across / columns, renderer)
+
+
+def _narrow(text: Any, room: float, renderer: Any, *, lines: bool = False) -> None:
+    """A text that is wider than the room: in two lines where one would be too small, and then smaller."""
+    width = text.get_window_extent(renderer).width
+    if lines and width * SMALLEST > room:
+        text.set_text(textwrap.fill(text.get_text(), math.ceil(len(text.get_text()) * max(room / width, 0.55))))
+        width = text.get_window_extent(renderer).width
+    if width > room:
+        text.set_fontsize(text.get_fontsize() * room / width)
 
 
 def label_right(axes: Any, ends: dict[str, tuple[float, float]], ink: dict[str, Ink], gap: float = 0.047) -> None:

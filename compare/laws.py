@@ -27,7 +27,7 @@ SURE, NEAR = 0.25, 0.1
 
 
 class Exponent(NamedTuple):
-    """The exponent of t, the half-width of its 95 % interval, and how many windows it was read off.
+    """The exponent of t, the half-width of its 95 % interval, how many windows it was read off, and rounding's part.
 
     NaN, of no windows, where there are too few, or an error is not a number, or all are zero.
     """
@@ -35,6 +35,7 @@ class Exponent(NamedTuple):
     value: float
     interval: float
     windows: int
+    rounding: float
 
     @property
     def law(self) -> str:
@@ -45,7 +46,7 @@ class Exponent(NamedTuple):
         return LAWS[nearest] if abs(nearest - self.value) <= max(self.interval, NEAR) else ""
 
 
-NONE = Exponent(math.nan, math.nan, 0)
+NONE = Exponent(math.nan, math.nan, 0, 0.0)
 
 
 def enough(times: np.ndarray, shortest: float) -> bool:
@@ -53,8 +54,10 @@ def enough(times: np.ndarray, shortest: float) -> bool:
     return len(list(_windows(times, shortest))) >= LEAST_WINDOWS
 
 
-def exponent_of(times: np.ndarray, errors: np.ndarray, shortest: float) -> Exponent:
+def exponent_of(times: np.ndarray, errors: np.ndarray, shortest: float, rounding: float = 0.0) -> Exponent:
     """The exponent of errors [samples], or of their mean over marches [marches, samples].
+
+    ``rounding`` bounds rounding's part of the last error; of the others it is less by the root of time at least.
 
     Of several marches the interval covers besides what one of them more or less would change (the jackknife).
     """
@@ -73,7 +76,11 @@ def exponent_of(times: np.ndarray, errors: np.ndarray, shortest: float) -> Expon
         ((*slope_with_interval(ends[i:], sizes[i:]), i) for i in range(len(ends) - LEAST_WINDOWS + 1)),
         key=lambda fit: fit[1],
     )
-    return Exponent(value, max(interval, _jackknife(ends[first:], squares[first:])), len(ends) - first)
+    ends, squares, sizes = ends[first:], squares[first:], sizes[first:]
+    parts = rounding / largest * np.exp((ends - ends[-1]) / 2 - sizes)
+    centred = ends - ends.mean()
+    doubt = float(np.abs(centred) @ parts / (centred @ centred))
+    return Exponent(value, max(interval, _jackknife(ends, squares)), len(ends), doubt)
 
 
 def _windows(times: np.ndarray, shortest: float) -> Iterator[tuple[float, np.ndarray]]:

@@ -151,7 +151,9 @@ def decided(value: float, rounding: float, forms: Sequence[str]) -> str:
     """
     if not math.isfinite(value):
         return str(value)
-    off = rounding if math.isfinite(rounding) else 0.0
+    if math.isinf(rounding):
+        return DOUBT + format(value, forms[-1])
+    off = 0.0 if math.isnan(rounding) else rounding
     same = (form for form in forms if format(value - off, form) == format(value + off, form))
     form = next(same, None)
     return DOUBT + format(value, forms[-1]) if form is None else format(value, form)

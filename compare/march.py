@@ -31,7 +31,17 @@ if TYPE_CHECKING:
     from compare.trace import Block
     from reference.problem import Problem
 
-__all__ = ["INLINE_SINE", "Lane", "March", "StartInvariant", "iterations_for", "march", "march_alone", "sample_steps"]
+__all__ = [
+    "INLINE_SINE",
+    "Lane",
+    "March",
+    "StartInvariant",
+    "converged",
+    "iterations_for",
+    "march",
+    "march_alone",
+    "sample_steps",
+]
 
 CLOCKED_RUNS, BRIEF = 3, 0.02
 """A march alone of less than BRIEF seconds is clocked this often."""
@@ -117,6 +127,12 @@ def _sorted(method: Method, lanes: Sequence[Lane], fmt: Precision) -> dict[tuple
     for members in groups.values():
         members.sort(key=lambda i: -lanes[i].n)
     return groups
+
+
+def converged(change: float, states: np.ndarray, fmt: Precision) -> bool:
+    """Whether the last iterations of implicit steps, which changed states by so much, were the last that count."""
+    size = max(1.0, float(np.max(np.abs(states.astype(np.float64)))))
+    return change <= CONVERGED * fmt.epsilon * size
 
 
 @dataclass(frozen=True)
@@ -273,8 +289,7 @@ class _Group:
         lane = self.lanes[i]
         states = self.states[i, : len(lane.samples)]
         drift, change = self.maxima[i]
-        size = max(1.0, float(np.max(np.abs(states.astype(np.float64)))))
-        if not change <= CONVERGED * self.fmt.epsilon * size:
+        if not converged(float(change), states, self.fmt):
             states, drift = np.full(states.shape, np.nan), math.nan
         per_step, once = self.method.evaluations(self.iterations)
         own = max(lane.n - self.method.opening, 0)

@@ -18,6 +18,7 @@ from flint import arb
 from compare.aspects import period_of
 from compare.lane import Lane
 from compare.march import march
+from compare.orbital import early_reach
 from compare.records import OwnPeriod
 from compare.run import SPARE_BITS, as_balls
 from compare.submission.orbit import orbits
@@ -111,10 +112,11 @@ def _moved(phases: dict[int, arb | None], middles: Middles, turn: float) -> Midd
 
 
 def _rounding(run: Run) -> float:
-    """A bound on rounding's part of period/exact: that of the phase, which grows with the root of time at least."""
-    course = run.course
-    part = min(2 * period_of(course.problem) / float(course.t_end), 1.0)
-    return run.phase_rounding * math.sqrt(part) / (2 * math.pi) + 4 * course.fmt.epsilon
+    """A bound on rounding's part of period/exact: that of the phase by then; roundings add up as the root of time."""
+    course, end = run.course, 2 * period_of(run.course.problem)
+    part = min(end / float(course.t_end), 1.0)
+    led = early_reach(course.problem, Fraction(end)).phase
+    return (run.rounding.steps * math.sqrt(part) * led / (2 * math.pi) + 4) * course.fmt.epsilon
 
 
 def _frequency(known: Orbits) -> arb:

@@ -27,7 +27,6 @@ def phases(runs: Sequence[Run]) -> list[Phase]:
 
 def _phase(run: Run) -> Phase:
     phase, amplitude = run.orbital.T
-    drift = _largest(run.drift)
     return Phase(
         method=run.method.name,
         n=run.course.n,
@@ -39,7 +38,7 @@ def _phase(run: Run) -> Phase:
         end_amplitude_error=float(amplitude[-1]),
         lost=int(np.count_nonzero(~np.isfinite(phase))),
         phase_rounding=run.phase_rounding,
-        amplitude_rounding=_largest(amplitude) * run.rounding.drift / drift if drift > 0 else 0.0,
+        amplitude_rounding=run.amplitude_rounding,
     )
 
 

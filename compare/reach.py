@@ -30,6 +30,8 @@ if TYPE_CHECKING:
 __all__ = ["Reach", "reach"]
 
 FURTHER = 16
+BEFORE = 2.0**-20
+"""Of a coordinate, between slopes whose difference is taken."""
 BITS = 256
 """Working bits of a difference of energies, beside those of the format."""
 
@@ -45,6 +47,7 @@ class Reach:
         place_led: the same of the place, in its unit; along a curve also what a rounding of the coordinate makes of it.
         drift_led: the same of the change of the conserved quantity, relative to its start; NaN where there is none.
         slopes: how fast the place changes with the component that it is a function of, at each time; else zeros.
+        bends: how fast those slopes do: steps that begin or end there take slopes that are off.
         apart: how far the neighbour begins, in start or parameters, in units of their sizes.
     """
 
@@ -54,6 +57,7 @@ class Reach:
     place_led: float
     drift_led: float
     slopes: np.ndarray
+    bends: np.ndarray
     apart: float
 
 
@@ -71,12 +75,14 @@ def reach(problem: Problem, truth: np.ndarray, near: Problem, other: np.ndarray,
         led = FURTHER * (1 + np.max(np.abs(gap), axis=1) / sizes / (apart or 1.0)) * sizes
     places = list(aspect.places)
     place_led, slopes = float(np.max((led / units)[places])), np.zeros(len(truth))
+    bends = np.zeros(len(truth))
     if aspect.along is not None:
-        rates = motion.rates()
+        rates, before, shift = motion.rates(), *motion.rates_before(aspect.along)
         slopes = np.max([np.abs(rates[i]) / units[i] for i in aspect.places], axis=0)
+        bends = np.max([np.abs(rates[i] - before[i]) / units[i] for i in aspect.places], axis=0) / shift
         place_led += float(np.max(slopes) * sizes[aspect.along] * np.max((sizes / units)[places]))
     epsilon = fmt.epsilon
-    return Reach(sizes, units, epsilon * led, epsilon * place_led, epsilon * motion.drift_led(), slopes, apart)
+    return Reach(sizes, units, epsilon * led, epsilon * place_led, epsilon * motion.drift_led(), slopes, bends, apart)
 
 
 def _apart(problem: Problem, near: Problem, sizes: np.ndarray) -> float:
@@ -112,6 +118,12 @@ class _Motion:
     def rates(self) -> tuple[np.ndarray, ...]:
         """The slopes of the components by what they are functions of."""
         return tuple(np.asarray(rate) for rate in self.problem.derivative(NUMPY, tuple(self.state), self.parameters))
+
+    def rates_before(self, along: int) -> tuple[tuple[np.ndarray, ...], np.ndarray]:
+        """The slopes a little before, in the component that the others are functions of, and how little."""
+        shift, state = BEFORE * self.state[along], self.state.copy()
+        state[along] -= shift
+        return tuple(np.asarray(r) for r in self.problem.derivative(NUMPY, tuple(state), self.parameters)), shift
 
     def _slopes_of_energy(self, state: np.ndarray) -> tuple[np.ndarray, ...]:
         return tuple(self._system.gradient(tuple(state)))

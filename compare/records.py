@@ -109,6 +109,7 @@ class Drift(OfCase):
         slope_interval: half-width of its 95 % interval.
         rounding: a bound on rounding's part of max_drift_above_rest.
         slope_rounding: the same of slope_per_period.
+        relative_rounding: the same of max_drift_relative.
     """
 
     method: str
@@ -121,6 +122,7 @@ class Drift(OfCase):
     slope_interval: float
     rounding: float = 0.0
     slope_rounding: float = 0.0
+    relative_rounding: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -160,8 +162,9 @@ class Growth(OfCase):
         interval: half-width of its 95 % interval.
         law: "bounded", "sqrt t", "t", "t^3/2" or "t^2"; "" where none is clear.
         windows: the windows of time that were used, each twice as long as the one before it.
-        starts: the marches that it is the mean of: several where the error of the place is rounding.
-        floor: whether the error of the place is rounding.
+        starts: the marches that it is the mean of: several where the error is rounding.
+        floor: whether the error is rounding.
+        rounding: a bound on rounding's part of the exponent; 0 where the error is rounding, whose exponent it is.
     """
 
     method: str
@@ -175,6 +178,7 @@ class Growth(OfCase):
     windows: int
     starts: int
     floor: bool
+    rounding: float = 0.0
 
 
 @dataclass(frozen=True)

@@ -10,6 +10,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from flint import arb
 
+from compare.orbital import orbital_reach
+from compare.rounding import LOST
 from compare.submission.orbit import orbits
 from compare.submission.place import NOWHERE, apart
 from reference.arithmetic import BALL
@@ -22,6 +24,7 @@ if TYPE_CHECKING:
     from compare.course import Course
     from compare.march import March
     from compare.method import Method
+    from compare.orbital import OrbitalReach
     from compare.records import Cell
     from compare.rounding import Rounding
     from compare.submission.place import Orbits, Place
@@ -55,9 +58,28 @@ class Run:
             return self.course.drift(self.march.states)
 
     @property
-    def phase_rounding(self) -> float:
-        """A bound on rounding's part of the phase in rad, which is that of the state in units of its size."""
+    def lost(self) -> bool:
+        """Whether the march is on another motion than the exact one."""
+        return not self.cell.max_error < LOST
+
+    @property
+    def state_rounding(self) -> float:
+        """A bound on rounding's part of the state in units of its size."""
         return float(np.max(self.rounding.state / self.course.reach.sizes))
+
+    @property
+    def phase_rounding(self) -> float:
+        """A bound on rounding's part of the phase in rad."""
+        return self.rounding.steps * self.course.fmt.epsilon * self._reach.phase
+
+    @property
+    def amplitude_rounding(self) -> float:
+        """A bound on rounding's part of the amplitude."""
+        return self.rounding.steps * self.course.fmt.epsilon * self._reach.amplitude
+
+    @cached_property
+    def _reach(self) -> OrbitalReach:
+        return orbital_reach(self.course)
 
     @cached_property
     def orbital_known(self) -> bool:

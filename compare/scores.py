@@ -162,17 +162,19 @@ def _drift(method: Method, course: Course, result: March, rounding: float) -> Dr
     period, energy = _scales(course.problem)
     cycles = np.array(course.steps) * (float(course.h) / (period if math.isfinite(period) else 1.0))
     slope, interval = slope_with_interval(cycles, course.drift(result.states))
+    scale = course.level if energy is None else energy
     return Drift(
         method=method.name,
         n=course.n,
         h=float(course.h),
         case=course.case,
         max_drift_above_rest=_ratio(result.max_drift, course.level),
-        max_drift_relative=_ratio(result.max_drift, course.level if energy is None else energy),
+        max_drift_relative=_ratio(result.max_drift, scale),
         slope_per_period=slope,
         slope_interval=interval,
         rounding=rounding,
         slope_rounding=2 * rounding / float(cycles[-1]),
+        relative_rounding=_ratio(rounding * course.level, scale),
     )
 
 

@@ -144,8 +144,7 @@ def _slope_section(drifts: Sequence[Drift], declared: dict[str, int], width: int
         slope = starred(drift.slope_per_period, drift.slope_rounding)
         told = math.isfinite(drift.slope_interval) and not is_rounding(drift.slope_per_period, drift.slope_rounding)
         trend = f"{slope} ± {digits(drift.slope_interval, '.0e')}" if told else slope.replace("nan", "-")
-        scale = drift.max_drift_relative / (drift.max_drift_above_rest or math.inf)
-        return (starred(drift.max_drift_relative, scale * drift.rounding), trend) if case.energy else (trend,)
+        return (starred(drift.max_drift_relative, drift.relative_rounding), trend) if case.energy else (trend,)
 
     labels = [*(["relative"] if case.energy else []), f"slope per {case.cycle}"]
     grids = (of_steps(drifts, declared, width, labels, cells),)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from compare import grid
 from compare.grid import Section
-from compare.layout import by_steps, decided, legend, of_steps, starred
+from compare.layout import DOUBT, NOTES, ROUNDING, by_steps, decided, legend, of_steps, starred
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
@@ -91,12 +91,15 @@ def _growth(study: Study, case: Case, declared: dict[str, int], width: int) -> I
     for quantity in QUANTITIES:
         records = [growth for growth in found if growth.quantity == quantity]
         if records:
+            found_grid = of_steps(records, declared, width, ["law", "exponent"], _growth_cells)
+            doubt = any(DOUBT in cell for row in found_grid.rows for cell in row)
             nan = any(math.isnan(growth.exponent) for growth in records)
+            notes = _GROWTH_NOTE, NOTES[DOUBT] if doubt else "", _GROWTH_NAN if nan else ""
             yield Section(
                 name=f"growth-{quantity}-{grid.slug(case.label)}",
                 title=f"Growth, {case.label}: law of the {_WORDS[quantity]} over time",
-                grids=(of_steps(records, declared, width, ["law", "exponent"], _growth_cells),),
-                note=_GROWTH_NOTE + ("\n" + _GROWTH_NAN if nan else ""),
+                grids=(found_grid,),
+                note="\n".join(filter(None, notes)),
             )
 
 
@@ -113,7 +116,8 @@ def _no_law(case: Case) -> str:
 def _growth_cells(growth: Growth) -> list[str]:
     if math.isnan(growth.exponent):
         return ["-", "nan"]
-    return [growth.law or "-", f"{growth.exponent:.2f} ± {growth.interval:.2f}{'*' * growth.floor}"]
+    exponent = decided(growth.exponent, growth.rounding, (".2f", ".1f"))
+    return [growth.law or "-", f"{exponent} ± {growth.interval:.2f}{ROUNDING * growth.floor}"]
 
 
 def _period(study: Study, case: Case, declared: dict[str, int], width: int) -> Iterator[Section]:

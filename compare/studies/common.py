@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -30,7 +31,7 @@ __all__ = ["SHORTER_N", "TRACE_N", "distinct", "forms_of", "made", "positive_end
 SHORTER_N = tuple(2**k for k in range(7, 18))
 """Numbers of steps for families that take longer than the pendulum, or are shown in several forms."""
 TRACE_N = 256
-TRACE_SAMPLES = TRACE_N
+"""Of the numbers of steps that are asked for, trajectories have that nearest to this one."""
 
 
 def made(
@@ -43,7 +44,7 @@ def made(
         problems: what the methods are marched on.
         definition: the equation in a line, or one for each form.
         parameters: what the header says of the problems, and where their marches end.
-        traces: whether to keep trajectories for plots, in TRACE_N steps.
+        traces: whether to keep trajectories for plots, in that of the numbers of steps which is nearest to TRACE_N.
         options: of ``score_all``.
     """
     scored = score_all(problems, **options)
@@ -120,7 +121,9 @@ def _notes(scored: Scored) -> dict[str, str]:
 def _traces(scored: Scored) -> tuple[tuple[Trace, ...], tuple[Trace, ...]]:
     """Every method's trajectory on every problem, and the exact one at the same times."""
     pairs = zip(scored.problems, scored.t_ends, strict=True)
-    courses = [Course(problem, TRACE_N, end, scored.fmt, TRACE_SAMPLES) for problem, end in pairs]
+    asked = {cell.n for cell in scored.cells}
+    n = min(asked, key=lambda count: (abs(math.log(count / TRACE_N)), count))
+    courses = [Course(problem, n, end, scored.fmt, TRACE_N) for problem, end in pairs]
     kept = []
     for method in scored.methods:
         fitting = [course for course in courses if fits(method, course.problem)]

@@ -5,15 +5,18 @@ from __future__ import annotations
 import dataclasses
 import itertools
 import math
+import re
 import xml.etree.ElementTree as ET
+from importlib import import_module
 
 import matplotlib as mpl
 import numpy as np
 import pytest
 from made_study import METHODS, made_case, made_study
+from matplotlib.text import Text
 
 from compare import plot
-from compare.ink import inks, spread, style
+from compare.ink import inks, saved, spread, style
 
 CASE = made_case(1.0)
 FEW = ("euler", "verlet", "suzuki4")
@@ -132,3 +135,74 @@ def test_a_label_is_drawn_with_the_symbols_of_its_inputs():
     with style():
         figure = plot.work_figure(made_study(methods=("verlet",)), CASE)
     assert "θ₀ = 1.0 rad" in figure.texts[0].get_text()
+
+
+STUDIES = {
+    "pendulum": ("euler", "symplectic_euler_adjoint", "sofroniou_spaletta10"),
+    "brachistochrone": ("euler", "rk4_misprinted", "three_eighths"),
+    "tautochrone": ("euler", "rk4_misprinted", "three_eighths"),
+    "descent": ("euler", "rk4_misprinted", "three_eighths"),
+    "polar": ("euler", "rk4_misprinted", "three_eighths"),
+}
+
+
+@pytest.fixture(scope="module", params=STUDIES)
+def drawn_study(request):
+    study = import_module(f"compare.studies.{request.param}").study
+    return study(methods=STUDIES[request.param], n=(32, 100), traces=True, compensated=True)
+
+
+def with_methods(study, count):
+    """The same study as if fewer methods had been asked for."""
+    names = list(dict.fromkeys(cell.method for cell in study.error_vs_n))[:count]
+    kept = {
+        table: tuple(record for record in getattr(study, table) if record.method in names)
+        for table in ("error_vs_n", "order", "energy_drift", "traces")
+    }
+    return dataclasses.replace(study, **kept)
+
+
+def test_every_text_lies_within_its_figure_and_the_n_is_one_that_was_asked_for(drawn_study):
+    for count in (1, 2, 3):
+        with style():
+            for name, figure in plot.figures(with_methods(drawn_study, count)):
+                saved(figure)
+                texts = [text for text in shown(figure) if text.get_text()]
+                assert len(texts) >= 3
+                assert [text.get_text() for text in texts if leaves(text, figure)] == [], (name, count)
+                told = {found for text in texts for found in re.findall(r"N = (\d+)", text.get_text())}
+                assert told <= {"100"}
+                columns = [text.get_window_extent() for axes in figure.axes for text in titles_of(axes)]
+                assert not any(a.overlaps(b) for a, b in itertools.combinations(columns, 2)), (name, count)
+    assert {trace.n for trace in drawn_study.traces} == {100}
+
+
+def titles_of(axes):
+    return [
+        text for text in axes.get_children() if isinstance(text, Text) and text.get_text() and text not in axes.texts
+    ]
+
+
+def shown(figure):
+    """Titles, labels and names; a tick outside of the view is there, and not drawn."""
+    yield from figure.texts
+    for axes in figure.axes:
+        yield from (*axes.texts, *titles_of(axes), axes.xaxis.label, axes.yaxis.label)
+
+
+def leaves(text, figure):
+    box = text.get_window_extent()
+    return box.x0 < -1 or box.y0 < -1 or box.x1 > figure.bbox.width + 1 or box.y1 > figure.bbox.height + 1
+
+
+def test_a_long_title_is_written_in_two_lines():
+    label = "end_x = 3.141592653589793 m, end_y = 2.718281828459045 m, and more that must be said of the case in it"
+    case = dataclasses.replace(CASE, label=label)
+    study = made_study(methods=("verlet",))
+    traces = tuple(dataclasses.replace(trace, case=case) for trace in study.traces)
+    exact = tuple(dataclasses.replace(trace, case=case) for trace in study.exact)
+    with style():
+        figure = plot.phase_figure(dataclasses.replace(study, cases=(case,), traces=traces, exact=exact), case)
+        saved(figure)
+    assert not any(leaves(text, figure) for text in shown(figure))
+    assert any("\n" in text.get_text() for text in figure.texts)
