@@ -10,7 +10,6 @@ from compare.submission.columns import Columns
 from compare.submission.crew import Crew
 from compare.submission.files import Rows
 from compare.submission.judge import CHUNK, Judge
-from compare.submission.record import Running, capped
 from compare.submission.show import csv_header, csv_rows, rendered
 from compare.submission.sift import Sift
 from reference.families import FAMILIES
@@ -68,14 +67,14 @@ def judged(asked: Submission, progress: Callable[[str], None] | None = None) -> 
     judge = Judge(problem)
     columns = Columns((judge.time, *problem.state_names), asked.columns)
     rows = Rows(asked.file, columns, as_written=asked.exact)
-    running = Running(problem.state_names, keep=asked.rows)
+    running = judge.running(asked.rows)
     done = 0
     with Crew(judge) as crew:
         sift = Sift(judge, running, crew)
         for points, held, count in _found(rows, judge, crew, crew.points if asked.form == "csv" else sift.points):
             running.add(points)
             if asked.form == "csv":
-                yield ("" if done else csv_header(problem.state_names)) + csv_rows(capped(p, held) for p in points)
+                yield ("" if done else csv_header(problem.state_names)) + csv_rows(running.resolved(p, held) for p in points)
             done += count
             if progress is not None:
                 progress(f"{done} rows")

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
     from compare.submission.columns import Columns
 
-__all__ = ["flat", "packed", "rows_first"]
+__all__ = ["flat", "packed", "rows_first", "sized"]
 
 
 def packed(columns: Columns, shapes: Mapping[str, tuple[int, ...]], kind: str) -> tuple[str, str] | None:
@@ -54,6 +54,11 @@ def packed(columns: Columns, shapes: Mapping[str, tuple[int, ...]], kind: str) -
 def flat(shape: tuple[int, ...]) -> tuple[int, ...]:
     """The shape of a column: of a matrix of one row or one column too, as MATLAB has no other."""
     return (max(shape),) if len(shape) == 2 and 1 in shape else shape
+
+
+def sized(count: int) -> str:
+    """A number of bytes, in words."""
+    return f"{short(str(count))} byte{'' if count == 1 else 's'}"
 
 
 def rows_first(columns: Columns, name: str, shape: tuple[int, ...], times: tuple[int, ...]) -> bool:

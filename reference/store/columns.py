@@ -7,11 +7,30 @@ from typing import TYPE_CHECKING, Any
 
 import h5py
 
+from reference.names import short
+
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
     from pathlib import Path
 
 __all__ = ["ForeignColumn", "foreign_columns"]
+
+FAULTS = (
+    OSError,  # bytes that cannot be read or unpacked
+    RuntimeError,  # what HDF5 itself says, of objects that it visits
+    ValueError,  # a name or a string in no encoding, or a shape that is none
+    KeyError,
+    TypeError,  # a type without an equivalent in NumPy
+    OverflowError,
+    MemoryError,  # a chunk or a string that is larger than memory
+    NotImplementedError,
+    SystemError,
+)
+"""What h5py raises of a file that is damaged."""
+MOST_BYTES = 1 << 26
+"""Bytes that a chunk of a dataset may take unpacked: HDF5 reads no part of one."""
+LONGEST_NUMBER = 16_384
+"""Bytes of a number: a string of the most digits that an input may have fits."""
 
 
 class ForeignColumn:
@@ -21,8 +40,8 @@ class ForeignColumn:
         is_text: whether it holds strings, which are read as ``str``.
     """
 
-    def __init__(self, data: Any, field: str | None = None) -> None:
-        self._data, self._field = data, field
+    def __init__(self, path: Path, name: str, data: Any, field: str | None = None) -> None:
+        self._path, self._name, self._data, self._field = path, name, data, field
         self._one_row = len(data.shape) == 2 and data.shape[0] == 1
         self._one_column = not self._one_row and len(data.shape) == 2 and data.shape[1] == 1
         self.is_text = field is None and h5py.check_string_dtype(data.dtype) is not None
@@ -30,11 +49,46 @@ class ForeignColumn:
         self.dtype: Any = data.dtype if field is None else data.dtype[field]
 
     def __getitem__(self, rows: slice) -> Any:
-        """Some consecutive rows."""
-        data = self._data.asstr() if self.is_text else self._data
-        if self._field is not None:
-            data = data.fields(self._field)
-        return data[0, rows] if self._one_row else data[rows, 0] if self._one_column else data[rows]
+        """Some consecutive rows.
+
+        Raises:
+            ValueError: they cannot be read, or are of numbers or chunks that are too large to be any.
+        """
+        with told(self._path, self._name):
+            self._refuse_large()
+            data = self._data.asstr() if self.is_text else self._data
+            if self._field is not None:
+                data = data.fields(self._field)
+            return data[0, rows] if self._one_row else data[rows, 0] if self._one_column else data[rows]
+
+    def _refuse_large(self) -> None:
+        size, chunks = self._data.dtype.itemsize, self._data.chunks or ()
+        for length in chunks:
+            size *= length
+        if self._data.dtype.itemsize > LONGEST_NUMBER or size > MOST_BYTES:
+            raise ValueError(
+                f"chunks of {short(str(size))} bytes, of {self._data.dtype.itemsize} a number, are beyond the limits of "
+                f"{MOST_BYTES} and {LONGEST_NUMBER}"
+            )
+
+
+@contextmanager
+def told(path: Path, name: str = "") -> Iterator[None]:
+    """What goes wrong in a file, in one sentence.
+
+    Raises:
+        ValueError: something does.
+    """
+    try:
+        yield
+    except FAULTS as error:
+        said = " ".join(str(error).split()) or type(error).__name__
+        where = f" in its dataset {short(name)}" if name else ""
+        raise ValueError(f"'{path}' cannot be read: HDF5 says{where}: {_first(said)}.") from error
+
+
+def _first(said: str) -> str:
+    return short(said.rstrip(".")) if len(said) < 120 else f"{short(said[:60])}..."
 
 
 @contextmanager
@@ -42,20 +96,26 @@ def foreign_columns(path: Path) -> Iterator[Mapping[str, ForeignColumn]]:
     """The datasets of a file by their paths, and the fields of compound datasets by their names too.
 
     Raises:
-        ValueError: it is no HDF5 file.
+        ValueError: it is no HDF5 file, or damaged.
     """
     try:
         file = h5py.File(path, "r")
-    except OSError as error:
+    except FAULTS as error:
         raise ValueError(f"'{path}' is no HDF5 file, or it is truncated.") from error
     with file:
         found: dict[str, ForeignColumn] = {}
 
         def keep(name: str, item: Any) -> None:
-            if isinstance(item, h5py.Dataset) and item.shape is not None:
-                found[name] = ForeignColumn(item)
-                for field in item.dtype.names or ():
-                    found[field] = ForeignColumn(item, field)
+            if not isinstance(item, h5py.Dataset) or item.shape is None:
+                return
+            try:
+                dtype = item.dtype
+            except TypeError:  # NumPy has no such type, so that it is no column
+                return
+            found[name] = ForeignColumn(path, name, item)
+            for field in dtype.names or ():
+                found[field] = ForeignColumn(path, name, item, field)
 
-        file.visititems(keep)
+        with told(path):
+            file.visititems(keep)
         yield found

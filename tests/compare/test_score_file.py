@@ -179,7 +179,7 @@ def test_tables_mark_the_first_wrong_digit_and_end_with_the_summary(form, tmp_pa
     assert main(["score", str(tmp_path / "a.csv"), "--theta0", "1", "--format", form]) == 0
     out = capsys.readouterr().out
     assert "-0.82383[2]839" in out  # the truth is -0.82383384
-    assert "40 rows, worst 5.9 correct digits (row 31), max error 1.0e-06" in out.splitlines()[-1]
+    assert "40 rows, worst 5.9 correct digits (row 31), 6.0 on scale (row 31), max error 1.0e-06" in out.splitlines()[-1]
 
 
 def test_csv_has_every_row_and_json_an_even_choice(tmp_path, capsys):
