@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import sys
 from fractions import Fraction
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from flint import arb, ctx
@@ -12,7 +13,7 @@ from flint import arb, ctx
 from compare.submission.orbit import orbits, remark
 from compare.submission.place import apart
 from compare.submission.record import Point, Running
-from compare.submission.slips import exchanged, refuse_degrees
+from compare.submission.slips import exchanged, refuse_other_times, refuse_other_units
 from compare.submission.turns import Turns
 from reference.arithmetic import BALL
 from reference.names import short
@@ -93,7 +94,9 @@ class Judge:
         instants = [row.t.value for row in rows]
         truths = enclosure.balls(self.problem, "state", instants, bits)
         if not self.rows and not places[0]:
-            refuse_degrees(self.problem.state_names, self._units, rows, truths)
+            refuse_other_units(self.problem.state_names, self._units, rows, truths)
+            if self.time == "t":
+                refuse_other_times(self.time, rows, truths, partial(enclosure.balls, self.problem, "state", bits=bits))
             self._slip = exchanged(self.problem.state_names, rows, truths)
         with ctx.workprec(bits + SPARE_BITS + self.problem.working_bits(instants) + _whole_bits(rows)):
             bench = _Bench(self.problem, bits)
@@ -107,9 +110,16 @@ class Judge:
         self.rows += count
         self.last = last
 
-    def score(self, running: Running, times: str) -> Score:
-        """The summary of all rows so far, which ``running`` took in; ``times`` says how times were read."""
-        return running.score(repr(self.problem), self._units, self.held, times, self._notes(running))
+    @property
+    def units(self) -> tuple[str, ...]:
+        """The units of the time and of the state's numbers."""
+        return ("s" if self.time == "t" else "1", *self._units)
+
+    def score(self, running: Running, times: str, notes: Sequence[str] = ()) -> Score:
+        """The summary of all rows so far, which ``running`` took in; ``times`` says how times were read, and ``notes``
+        what else is to be known of the file.
+        """
+        return running.score(repr(self.problem), self._units, self.held, times, (*notes, *self._notes(running)))
 
     def _notes(self, running: Running) -> tuple[str, ...]:
         """What could not be judged, or is to be known of it, in sentences."""
@@ -200,7 +210,7 @@ class _Bench:
         )
 
     def _digits(self, error: arb, truth: arb) -> float:
-        """-log10 |error/truth|, not below 0: infinite where the truth is met as far as it is known, NaN where it is 0."""
+        """-log10 |error/truth|, not below 0: infinite where that is met as far as it is known; NaN where it is 0."""
         size = abs(error)
         if size <= self._resolution * abs(truth) or error.is_zero():
             return math.inf

@@ -63,7 +63,7 @@ class Header(NamedTuple):
 class Readable(Protocol):
     """Bytes from the beginning on."""
 
-    def read(self, count: int, /) -> bytes:
+    def read(self, count: int = ..., /) -> bytes:
         """The next bytes."""
 
     def tell(self) -> int:

@@ -88,7 +88,7 @@ class Unpacked:
     def __init__(self, path: Path, name: str, stream: Any) -> None:
         self._path, self._name, self._stream = path, name, stream
 
-    def read(self, count: int, *, short_of: bool = True) -> bytes:
+    def read(self, count: int = 0, *, short_of: bool = True) -> bytes:
         """The next bytes: as many, or where ``short_of`` is not set those that are left.
 
         Raises:
@@ -175,7 +175,7 @@ def _members(path: Path, archive: zipfile.ZipFile) -> dict[str, zipfile.ZipInfo]
             raise ValueError(f"'{path}' holds {name} encrypted; an archive without a password is accepted.")
         if info.compress_type not in {zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED}:
             raise ValueError(
-                f"'{path}' holds {name} packed by method {info.compress_type}; stored and deflated arrays are accepted, "
+                f"'{path}' holds {name} packed by method {info.compress_type}; stored and deflated ones are accepted, "
                 "as numpy.savez and numpy.savez_compressed write them."
             )
         most = info.compress_size * (1 if info.compress_type == zipfile.ZIP_STORED else MOST_UNPACKED)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from typing import TYPE_CHECKING
 
-from compare.submission.columns import DATASETS, USUAL
+from compare.submission.columns import DATASETS, USUAL, option
 from reference.names import SHOWN, short
 
 if TYPE_CHECKING:
@@ -46,7 +46,7 @@ def packed(columns: Columns, shapes: Mapping[str, tuple[int, ...]], kind: str) -
         raise ValueError(
             f"there are {len(tables)} {kind} that may hold {', '.join(state)}: "
             f"{', '.join(map(short, tables[:SHOWN]))}; one called {USUAL} is accepted, or one for each "
-            f"of the state's numbers, or '--columns {short(known[time])},{short(tables[0])}' would say which it is."
+            f"of the state's numbers, or {option([known[time], tables[0]])} would say which it is."
         )
     return (known[time], tables[0]) if tables else None
 

@@ -62,7 +62,7 @@ class Score:
         names: the names of the state's numbers; ``units`` their units.
         rows: how many rows there were.
         worst_digits: the fewest correct digits of a row; ``worst_row`` is the number of the first row that has so few.
-        worst_scaled_digits: the fewest correct digits on the scales of the numbers; ``worst_scaled_row`` is the number of
+        worst_scaled_digits: the fewest correct digits on the numbers' scales; ``worst_scaled_row`` is the number of
             the row with the largest error against its scale, or of the first where all have what the input holds.
         scales: the largest |truth| of each number at the start and in the rows, to six digits; 1 where all are zero.
         digits_held: the digits that the input could hold, which no row's correct digits exceed.

@@ -82,12 +82,10 @@ def near_zero(point: Point, scales: Scales, names: Sequence[str], held: float) -
     worst = min(range(len(own)), key=own.__getitem__)
     name, scale = names[worst], f"{scales.values[worst]:.3g}"
     if math.isnan(point.relative[worst]):
-        return (
-            f"In row {point.number}, the worst, {name} is exactly zero: its correct digits are those on its scale, {scale}."
-        )
+        return f"In row {point.number}, the worst, {name} is exactly zero: its digits are those on its scale, {scale}."
     if not scaled[worst] > own[worst] + NEAR:
         return ""
     return (
-        f"In row {point.number}, the worst, {name} is near zero, of size {10.0 ** point.truths[worst]:.1e}: relative to "
-        f"that {own[worst]:.1f} digits are correct, and {min(scaled[worst], held):.1f} on its scale, {scale}."
+        f"In row {point.number}, the worst, {name} is near zero, of size {10.0 ** point.truths[worst]:.1e}: relative "
+        f"to that {own[worst]:.1f} digits are correct, and {min(scaled[worst], held):.1f} on its scale, {scale}."
     )

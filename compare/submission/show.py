@@ -79,7 +79,15 @@ def _split(columns: list[Column], rows: tuple[tuple[str, ...], ...], at: int) ->
 def _cells(point: Point) -> tuple[str, ...]:
     values = map(marked, point.values, point.first_wrong)
     errors = (_size(getattr(point, name)) for name in ERRORS)
-    return str(point.number), point.t, *values, f"{point.digits:.1f}", f"{point.scaled_digits:.1f}", _size(point.error), *errors
+    return (
+        str(point.number),
+        point.t,
+        *values,
+        f"{point.digits:.1f}",
+        f"{point.scaled_digits:.1f}",
+        _size(point.error),
+        *errors,
+    )
 
 
 def _size(error: float) -> str:

@@ -67,8 +67,8 @@ class ForeignColumn:
             size *= length
         if self._data.dtype.itemsize > LONGEST_NUMBER or size > MOST_BYTES:
             raise ValueError(
-                f"chunks of {short(str(size))} bytes, of {self._data.dtype.itemsize} a number, are beyond the limits of "
-                f"{MOST_BYTES} and {LONGEST_NUMBER}"
+                f"chunks of {short(str(size))} bytes, of {self._data.dtype.itemsize} a number, are beyond the "
+                f"limits of {MOST_BYTES} and {LONGEST_NUMBER}"
             )
 
 

@@ -42,7 +42,7 @@ def test_a_rounding_at_an_exact_zero_is_no_lost_digit():
     assert (found.worst_row, found.worst_scaled_row) == (1, 1)
     assert found.worst_digits == found.worst_scaled_digits == pytest.approx(5 + math.log10(scale), abs=1e-9)
     assert found.notes == (
-        f"In row 1, the worst, omega is exactly zero: its correct digits are those on its scale, {scale:.3g}.",
+        f"In row 1, the worst, omega is exactly zero: its digits are those on its scale, {scale:.3g}.",
     )
 
 
