@@ -16,7 +16,7 @@ BOXES = str.maketrans("│┃║┆┊", "|||||")
 """What is drawn between columns, as a bar."""
 GROUPED = re.compile(r"[+-]?\d[\d.,]*\d(?:[edq][+-]?\d+)?", re.IGNORECASE | re.ASCII)
 """A number that may have more than one mark, as thousands are separated: 1.234,5 or 1,234.5."""
-SPACED = re.compile(r"[+-]?\d{1,3}(?:['’\s]\d{3})+(?:[.,]\d*)?", re.ASCII)
+SPACED = re.compile(r"[+-]?[0-9]{1,3}(?:['’\s][0-9]{3})+(?:[.,][0-9]*)?")
 """A number whose thousands are separated by apostrophes or blanks."""
 TOGETHER = re.compile(r"[+-]?\d+\.\d+(?:[eEdDqQ][+-]?\d+)?(?:-\d+\.\d+(?:[eEdDqQ][+-]?\d+)?)+", re.ASCII)
 """Fixed columns that a minus fills to the last place."""

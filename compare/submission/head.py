@@ -26,6 +26,8 @@ SEP = re.compile(r'"?sep=(.|\\t|tab)"?', re.IGNORECASE)
 """A spreadsheet's first line that says what separates the columns."""
 COMMENTED = (";", "//", "--", "*")
 """What marks lines before a table as comments, where all of them begin so."""
+SURELY = ("//", "--", "*")
+"""Of these what begins no name or field."""
 RULE = re.compile(r"[\s:|+=\-─━═┌┐└┘├┤┬┴┼╞╡╪╭╮╰╯│┆]*(?:-{2,}|[─━═]{2,}|={2,})[\s:|+=\-─━═┌┐└┘├┤┬┴┼╞╡╪╭╮╰╯│┆]*")
 """A line that is drawn, as in a table of Markdown or of a database's client."""
 ATTEMPT = re.compile(r"[+\-−–]?\s*[.,]?\d")
@@ -69,6 +71,9 @@ def read_head(lines: Iterator[Line], comment: Callable[[str], None], columns: Co
             separator = {"\\t": "\t", "tab": "\t"}.get(told[1].lower(), told[1])
             continue
         if is_rule(text):
+            continue
+        if text.startswith(SURELY):
+            before.append((number, text))
             continue
         head = Head(Dialect(text, separator))
         words = trimmed(head.dialect.split(text))

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 __all__ = ["JsonTable", "is_json", "json_table"]
 
-BEGINS = re.compile(r"\[\s*(?:[\[{\"\d-]|$)|\{\s*(?:[\"}]|$)")
+BEGINS = re.compile(r"\[\s*(?:[]\[{\"\d-]|$)|\{\s*(?:[\"}]|$)")
 
 MOST_TEXT = 1 << 24
 """Characters of JSON that is not of lines, and must be read at once."""

@@ -25,6 +25,13 @@ MOST_HEADER = 10_000
 """Characters of a header, as numpy.load has it too; it is read as a Python literal, whose cost grows with them."""
 LONGEST_NUMBER = 16_384
 """Bytes of a number: a string of the most digits that an input may have fits, four bytes a letter."""
+UNICODE = (3, 0)
+"""The version whose names are in UTF-8; but for that it is read as the one before."""
+READERS: dict[tuple[int, int], Any] = {
+    (1, 0): npy.read_array_header_1_0,
+    (2, 0): npy.read_array_header_2_0,
+    UNICODE: npy.read_array_header_2_0,
+}
 FAULTS = (
     ValueError,  # also a header in another encoding, and what is no literal
     TypeError,  # a descriptor or a key of another type
@@ -80,8 +87,9 @@ def read_header(stream: Readable, name: str) -> Header:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # of headers by Python 2, and of letters that Python's parser dislikes
             version = npy.read_magic(stream)
-            read: Any = npy.read_array_header_1_0 if version == (1, 0) else npy.read_array_header_2_0
-            shape, by_columns, dtype = read(stream, max_header_size=MOST_HEADER)
+            shape, by_columns, dtype = READERS[version](stream, max_header_size=MOST_HEADER)
+            if version == UNICODE and dtype.names:
+                dtype.names = tuple(field.encode("latin-1").decode() for field in dtype.names)
     except FAULTS as error:
         raise ValueError(f"'{name}' is a file {NO_NPY}.") from error
     if any(isinstance(length, bool) or length < 0 for length in shape):

@@ -58,4 +58,4 @@ def hexadecimal(word: str) -> tuple[Fraction, int] | None:
         return None
     mantissa = int(digits, 16) * (-1 if match[1] == "-" else 1)
     value = mantissa * Fraction(2) ** (int(match[4] or 0) - 4 * len(match[3] or ""))
-    return value, abs(mantissa).bit_length() - (mantissa & -mantissa).bit_length() + 1 if mantissa else 1
+    return value, abs(mantissa).bit_length()

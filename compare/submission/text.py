@@ -34,6 +34,8 @@ TAIL = 64
 """Rows at the end among which the last is looked at."""
 UNUSUAL = frozenset(';,|"+-=─┌└├╞│(\t')
 """How a line begins that may hold nothing."""
+MARK = re.compile(r"[^\w\s.,;|+\-\"']+")
+"""What may begin a comment, and no field."""
 FOOTER = re.compile(r"\((\d+) rows?\)")
 """What a database's client says under a table."""
 
@@ -169,6 +171,9 @@ class Table:
 
     def _hint(self, text: str, words: Sequence[str]) -> str:
         """What a line with other fields than the first may be, and what would read it."""
+        mark = MARK.match(text)
+        if mark:
+            return f"; if it is a comment, --comment {shlex.quote(short(mark[0]))} would pass over it"
         found = self._dialect.hint(text, len(words), self._width)
         if found:
             return found
@@ -178,8 +183,7 @@ class Table:
                 f"; where the first field of a row is its number or name, --skip {self._header} --columns {numbers} "
                 "would read them"
             )
-        mark = re.match(r"[^\w\s.,;|+\-\"']+", text)
-        return f"; if it is a comment, --comment {shlex.quote(short(mark[0]))} would pass over it" if mark else ""
+        return ""
 
     def chunk(self, batch: Sequence[Line], *, doubles: bool) -> Chunk:
         """Some lines; their times are ``doubles``, or as they are written."""

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import math
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
 import h5py
 
-from reference.names import short
+from reference.names import LENGTH, short
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
@@ -29,6 +30,8 @@ FAULTS = (
 """What h5py raises of a file that is damaged."""
 MOST_BYTES = 1 << 26
 """Bytes that a chunk of a dataset may take unpacked: HDF5 reads no part of one."""
+MOST_SAID = 180
+"""Characters of what HDF5 says that are repeated."""
 LONGEST_NUMBER = 16_384
 """Bytes of a number: a string of the most digits that an input may have fits."""
 
@@ -55,20 +58,23 @@ class ForeignColumn:
             ValueError: they cannot be read, or are of numbers or chunks that are too large to be any.
         """
         with told(self._path, self._name):
-            self._refuse_large()
+            self._refuse_wrong_size()
             data = self._data.asstr() if self.is_text else self._data
             if self._field is not None:
                 data = data.fields(self._field)
             return data[0, rows] if self._one_row else data[rows, 0] if self._one_column else data[rows]
 
-    def _refuse_large(self) -> None:
-        size, chunks = self._data.dtype.itemsize, self._data.chunks or ()
-        for length in chunks:
-            size *= length
-        if self._data.dtype.itemsize > LONGEST_NUMBER or size > MOST_BYTES:
+    def _refuse_wrong_size(self) -> None:
+        item, chunks, held = self._data.dtype.itemsize, self._data.chunks, self._data.id.get_storage_size()
+        size = item * math.prod(chunks or ())
+        if chunks is None and held not in {0, item * self._data.size}:  # what was never written takes nothing
             raise ValueError(
-                f"chunks of {short(str(size))} bytes, of {self._data.dtype.itemsize} a number, are beyond the "
-                f"limits of {MOST_BYTES} and {LONGEST_NUMBER}"
+                f"it declares {short(str(item * self._data.size))} bytes of numbers and holds {short(str(held))}"
+            )
+        if item > LONGEST_NUMBER or size > MOST_BYTES:
+            raise ValueError(
+                f"its numbers take {item} bytes and its chunks {short(str(size))}, of {LONGEST_NUMBER} and {MOST_BYTES} "
+                "that are accepted"
             )
 
 
@@ -88,7 +94,9 @@ def told(path: Path, name: str = "") -> Iterator[None]:
 
 
 def _first(said: str) -> str:
-    return short(said.rstrip(".")) if len(said) < 120 else f"{short(said[:60])}..."
+    """The beginning of what a library says, which may be of any length and hold names of the file's."""
+    parts = [said[begin : begin + LENGTH] for begin in range(0, min(len(said), MOST_SAID), LENGTH)]
+    return "".join(map(short, parts)).rstrip(".") + ("..." if len(said) > MOST_SAID else "")
 
 
 @contextmanager
