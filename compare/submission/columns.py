@@ -73,8 +73,8 @@ class Columns:
         return f"{len(self.asked or ())} columns; {len(self.wanted)} are accepted, for {self._list}"
 
     def named_by(self, found: Sequence[str]) -> bool:
-        """Whether these names of a text file's columns have all that are wanted, once or more often."""
-        return all(where for where, _ in self._where(found, "columns"))
+        """Whether these names of a text file's columns have all that are wanted, once or more often, by name."""
+        return all(where for where, _ in self._by_name(found, "columns"))
 
     def among(self, found: Sequence[str], kind: str = "columns") -> list[int]:
         """Where the wanted columns are among the names that a file has: as they are written, or but for case and units,
@@ -99,7 +99,14 @@ class Columns:
         return places
 
     def _where(self, found: Sequence[str], kind: str) -> list[tuple[list[int], bool]]:
-        """The places at which each of the names may be, and whether it is there by its own name."""
+        """The places at which each of the names may be, and whether it is there by its own name, or number."""
+        places = self._by_name(found, kind)
+        numbers = self._numbers(len(found)) if kind in {"columns", "fields"} else []
+        if numbers and not any(where for where, _ in places):
+            return [([number - 1], True) for number in numbers]
+        return places
+
+    def _by_name(self, found: Sequence[str], kind: str) -> list[tuple[list[int], bool]]:
         exact = [name.strip() for name in found]
         last = [_last(name) for name in exact] if kind == DATASETS else exact
         whole = exact if self.asked or set(self.names) <= set(exact) else last  # the root's t is no group's
@@ -111,9 +118,6 @@ class Columns:
             )
             other = [] if where or self.asked else [i for i, b in enumerate(bare) if b & same_as(name, self.wanted)]
             places.append((where or other, bool(where)))
-        numbers = self._numbers(len(exact))
-        if numbers and kind in {"columns", "fields"} and not any(where for where, _ in places):
-            return [([number - 1], True) for number in numbers]
         return places
 
     def _numbers(self, count: int) -> list[int]:
@@ -135,6 +139,8 @@ class Columns:
                 continue
             part, found = known[0]
             wanted = self.units[i] if i < len(self.units) else "" if found.factor == "1" else found.of
+            if found.factor == "1" and found.of == wanted.replace("rad s-1", "s-1").replace("rad", "1"):
+                continue  # a radian is 1
             column = f"the column {short(text)}" if not alone else f"{self.wanted[i]}, with the units {short(text)},"
             if found.factor != "1" and wanted == found.of:
                 accepted = "radians are" if wanted == "rad" or found.factor == "pi/180" else f"{wanted} is"

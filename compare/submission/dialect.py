@@ -20,6 +20,8 @@ SPACED = re.compile(r"[+-]?[0-9]{1,3}(?:['’\s][0-9]{3})+(?:[.,][0-9]*)?")
 """A number whose thousands are separated by apostrophes or blanks."""
 TOGETHER = re.compile(r"[+-]?\d+\.\d+(?:[eEdDqQ][+-]?\d+)?(?:-\d+\.\d+(?:[eEdDqQ][+-]?\d+)?)+", re.ASCII)
 """Fixed columns that a minus fills to the last place."""
+TUPLE = re.compile(r"[({]\s*([+\-]?[.\d][^(){}]*?)\s*[)}],?")
+"""A row in brackets."""
 PART = re.compile(r"[+-]?\d+\.\d+(?:[eEdDqQ][+-]?\d+)?", re.ASCII)
 COMMAS_BETWEEN = "where commas are decimal marks, columns with semicolons, tabs or blanks between them are accepted"
 
@@ -39,8 +41,8 @@ class Dialect:
         self.together = False
         self._first = ""
 
-    def split(self, line: str) -> list[str]:
-        """The words of a line, without their quotes.
+    def split(self, line: str, width: int = 0) -> list[str]:
+        """The words of a line, without their quotes; where they are not ``width``, without what runs together.
 
         Raises:
             ValueError: one is longer than any number.
@@ -51,6 +53,8 @@ class Dialect:
             line = line.translate(BOXES).strip()
             line = line.removeprefix("|")
             line = line.removesuffix("|")
+        if line[:1] in {"(", "{"}:
+            line = _opened(line)
         if '"' in line:
             try:
                 words = next(csv.reader([line], delimiter=self.separator or " ", skipinitialspace=True))
@@ -60,7 +64,7 @@ class Dialect:
                 ) from None
             return [word.strip() for word in words if word or self.separator]
         words = [word.strip().strip("\"'") for word in line.split(self.separator)]
-        return self._apart(words) if self.separator is None else words
+        return self._apart(words) if self.separator is None and len(words) != width else words
 
     def _apart(self, words: list[str]) -> list[str]:
         """The words, of which those are taken apart that run together at a minus."""
@@ -95,6 +99,12 @@ class Dialect:
         """What is to be said of a line with more fields than are wanted, if they come of decimal commas; else ""."""
         doubtful = self.separator == "," and wanted < fields <= 2 * wanted and "." not in line
         return f"; {COMMAS_BETWEEN}" if doubtful else ""
+
+
+def _opened(line: str) -> str:
+    """A line without the brackets that some languages print about the numbers of a row."""
+    match = TUPLE.fullmatch(line)
+    return match[1] if match else line
 
 
 def _separator(line: str) -> str | None:

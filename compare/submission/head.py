@@ -44,15 +44,20 @@ class Head:
         dialect: how it is written.
         header: the number of the line that names the columns; 0 where there is none.
         names: the names, without empty ones at the end; [] where there is no header.
-        first: the first row; None where there is none.
+        taken: the lines that were read after the header, of which the first is a row.
         notes: what was passed over, in sentences.
     """
 
     dialect: Dialect
     header: int = 0
     names: list[str] = field(default_factory=list)
-    first: Line | None = None
+    taken: list[Line] = field(default_factory=list)
     notes: list[str] = field(default_factory=list)
+
+    @property
+    def first(self) -> str:
+        """The first row; "" where there is none."""
+        return self.taken[0][1] if self.taken else ""
 
 
 def read_head(lines: Iterator[Line], comment: Callable[[str], None], columns: Columns) -> Head | None:
@@ -82,7 +87,7 @@ def read_head(lines: Iterator[Line], comment: Callable[[str], None], columns: Co
             _understand(head, before, lines, columns)
             return head
         if len(words) > 1 and all(map(is_numeric, words)):
-            head.first = number, text
+            head.taken = [(number, text)]
             _pass_over(head, before, comment, columns)
             return head
         before.append((number, text))
@@ -118,11 +123,13 @@ def _understand(head: Head, before: Sequence[Line], lines: Iterator[Line], colum
     under: list[int] = []
     for at, text in lines:
         if is_rule(text):
+            if text.startswith("-") and not set(text) & set("+|"):
+                under.append(at)  # numbers that are missing may be written so
             continue
         words = trimmed(head.dialect.split(text), len(head.names))
         cells = [words[place] for place in places] if len(words) == len(head.names) else []
         if len(under) == MOST_UNDER or not cells or not _is_remark(cells, words):
-            head.first = at, text
+            head.taken = [(at, text)]
             break
         columns.refuse_units(cells, alone=True)
         if not all(unit(cell) for cell in cells):
@@ -144,25 +151,26 @@ def _read_as_rows(head: Head) -> None:
     """Take the separator of the first row, where the header's would not give as many fields; and where rows begin with
     their names in quotes, as R writes them, let the header have a name for these too.
     """
-    words = trimmed(head.dialect.split(head.first[1])) if head.first else head.names
-    if head.first is None or len(words) == len(head.names):
+    words = trimmed(head.dialect.split(head.first, len(head.names)))
+    if not head.first or len(words) == len(head.names):
         return
-    if len(words) == len(head.names) + 1 and head.first[1].lstrip().startswith('"') and head.first[1].count('"') == 2:
+    if len(words) == len(head.names) + 1 and head.first.lstrip().startswith('"') and head.first.count('"') == 2:
         head.names = ["", *head.names]
         return
-    other = Dialect(head.first[1])
-    words = other.split(head.first[1])
+    other = Dialect(head.first)
+    words = other.split(head.first)
     if other.separator != head.dialect.separator and len(words) == len(head.names) and all(map(is_numeric, words)):
         head.dialect = other
 
 
 def _pass_over(head: Head, before: Sequence[Line], comment: Callable[[str], None], columns: Columns) -> None:
-    """Take lines before a table without a header for comments, where they are marked as such.
+    """Take lines before rows for comments, where they are marked as such; or for a header whose names do not matter,
+    because the columns were asked for by their numbers.
 
     Raises:
-        ValueError: they are not, so that one of them should be the header, and is not.
+        ValueError: one of them should be the header, and is not.
     """
-    if not before or head.first is None:
+    if not before:
         return
     mark = next((mark for mark in COMMENTED if all(text.startswith(mark) for _, text in before)), None)
     if mark is not None:
@@ -170,13 +178,19 @@ def _pass_over(head: Head, before: Sequence[Line], comment: Callable[[str], None
             comment(text)
         head.notes.append(f"{_counted(before)} before the table, beginning with {mark}, did not count.")
         return
-    number, text = head.first
+    number, text = head.taken[0]
     width = len(trimmed(head.dialect.split(text)))
-    candidates = [words for line in before if len(words := _words(line, head.dialect)) == width]
+    candidates = [(at, words) for at, line in before if len(words := _words(line, head.dialect)) == width]
     for at, other in before:
         refuse_undecodable(other, at)
     if candidates:
-        columns.among(candidates[-1])
+        head.header, head.names = candidates[-1]
+        places = columns.among(head.names)
+        for _, words in candidates:
+            if all(unit(word) for word in words if word):
+                columns.refuse_units([words[place] for place in places], alone=True)
+        head.notes.append(f"{_counted(before)} before the first row, which is line {number}, did not count.")
+        return
     which = "" if width == len(columns.wanted) else ", and --columns would say which of its columns they are"
     raise ValueError(
         f"no line before line {number}, the first of numbers, names {', '.join(columns.names)}; a header with these "
@@ -188,23 +202,23 @@ def _counted(lines: Sequence[Line]) -> str:
     return f"{len(lines)} lines" if len(lines) > 1 else "One line"
 
 
-def _words(line: Line, dialect: Dialect) -> list[str]:
+def _words(text: str, dialect: Dialect) -> list[str]:
     """The words of a line that may be a header: by the table's separator, or its own."""
-    words = trimmed(dialect.split(line[1]))
-    return words if len(words) > 1 else trimmed(Dialect(line[1]).split(line[1]))
+    words = trimmed(dialect.split(text))
+    return words if len(words) > 1 else trimmed(Dialect(text).split(text))
 
 
 def _without_rows(before: Sequence[Line], separator: str, columns: Columns) -> Head:
-    """The head of lines among which there is no header, and no row of numbers.
+    """The head of lines among which there is no header, and no row of several numbers.
 
     Raises:
-        ValueError: always, unless the first is a row of something else.
+        ValueError: a column is missing in the first, which should be the header.
     """
     number, text = before[0]
     dialect = Dialect(text, separator)
     words = trimmed(dialect.split(text))
     if all(map(is_numeric, words)):
-        return Head(dialect, first=before[0])
+        return Head(dialect, taken=list(before))
     refuse_undecodable("".join(words), number)
     columns.among(words)
-    return Head(dialect, first=before[0])
+    return Head(dialect, number, words, list(before[1:]))  # its columns were asked for by their numbers

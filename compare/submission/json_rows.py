@@ -144,9 +144,10 @@ def _rows_of(columns: Columns, found: Any) -> tuple[list[str] | None, list[list[
     if isinstance(found, dict) and isinstance(found.get("data"), list):
         names = found.get("columns")  # as pandas writes it with orient="split", or "table"
         return _rows_of(columns, [names, *found["data"]] if isinstance(names, list) else found["data"])
-    if isinstance(found, dict):
+    if isinstance(found, dict) and any(isinstance(each, (list, dict)) for each in found.values()):
         return _of_columns(columns, found)
-    rows = found if isinstance(found, list) else []
+    single = isinstance(found, dict) or not any(isinstance(each, (list, dict)) for each in found)
+    rows = [found] if found and single else found
     if rows and all(isinstance(row, dict) for row in rows):
         names = list(rows[0])
         if any(row.keys() != rows[0].keys() for row in rows):

@@ -22,6 +22,8 @@ MAX_COMMENTS = 64
 STANDARD_INPUT = "-"
 BLANKS = " \r\n\v\f\u00a0"
 """What is no part of a line at its ends; a tab there may separate an empty column."""
+ERROR = re.compile(r"#(?:N/A|NUM!|DIV/0!|VALUE!|REF!|NAME\?|NULL!|SPILL!|CALC!)", re.IGNORECASE)
+"""What a spreadsheet has where there is no number: no comment."""
 MARKS = "\ufeff"
 """Byte order marks; who joins files may leave several."""
 UNDECODABLE = re.compile("[\udc80-\udcff]")
@@ -72,7 +74,7 @@ class Lines:
                 raise ValueError(f"line {self._number} has a NUL character, as no text file has; {TEXT}.")
             text = line.strip(BLANKS) if self._number > 1 else line.lstrip(MARKS).strip(BLANKS)
             bare = text.strip()
-            if bare.startswith(self._marks):
+            if bare.startswith(self._marks) and not ERROR.match(bare):
                 self.comment(bare)
             elif bare:
                 return self._number, text

@@ -7,15 +7,15 @@ from functools import cache
 __all__ = ["same_as"]
 
 TIMES = frozenset({
-    "time", "times", "zeit", "temps", "tiempo", "tempo", "tid", "tijd", "x_value", "time_s", "elapsed", "elapsed time",
+    "time", "times", "zeit", "temps", "tiempo", "tempo", "tid", "tijd", "x_value",
 })  # fmt: skip
 """What the column of t is called: by words of several languages, and by LabVIEW."""
 LETTERS = {"theta": "θϑ", "omega": "ω", "phi": "φϕ", "tau": "τ"}
 RATES = {"omega": "theta", "angular_velocity": "angle", "arc_rate": "arc", "place_rate": "place", "z_rate": "z"}
 """The names of derivatives, and of what they are derivatives."""
 DERIVED = (
-    "der({0})", "d({0})", "d({0})/dt", "d({0},t)", "diff({0},t)", "diff({0}(t),t)", "diff({0}(t), t)", "d{0}/dt",
-    "d{0}_dt", "d{0}dt", "d{0}", "{0}dot", "{0}_dot", "{0} dot", "{0}'", "{0}'(t)", "{0}(t)'", "{0}̇", "{0}_t",
+    "der({0})", "d({0})/dt", "d({0},t)", "diff({0},t)", "diff({0}(t),t)", "diff({0}(t), t)", "d{0}/dt",
+    "d{0}_dt", "d{0}dt", "{0}dot", "{0}_dot", "{0} dot", "{0}'", "{0}'(t)", "{0}(t)'", "{0}̇",
     "{0}_prime", "{0}prime", "dot({0})", "dot_{0}", "derivative({0})", "derivative({0}(t), t)",
 )  # fmt: skip
 

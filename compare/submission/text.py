@@ -32,7 +32,7 @@ __all__ = ["STANDARD_INPUT", "TextRows"]
 
 TAIL = 64
 """Rows at the end among which the last is looked at."""
-UNUSUAL = frozenset(';,|"+-=─┌└├╞│(\t')
+UNUSUAL = frozenset(';,|"+─┌└├╞│(\t')
 """How a line begins that may hold nothing."""
 MARK = re.compile(r"[^\w\s.,;|+\-\"']+")
 """What may begin a comment, and no field."""
@@ -93,7 +93,7 @@ class TextRows:
             return None, iter(())
         self.notes += head.notes
         table = Table(self._columns, head, lines.comments)
-        return table, table.rows(lines if head.first is None else chain([head.first], lines))
+        return table, table.rows(chain(head.taken, lines))
 
     def _decide(self, table: Table | JsonTable, batch: Sequence[Line]) -> None:
         """Decide how times are read, by the digits of the first states."""
@@ -111,7 +111,7 @@ class Table:
 
     def __init__(self, columns: Columns, head: Head, comments: Sequence[str]) -> None:
         self._columns, self._dialect, self._header = columns, head.dialect, head.header
-        words = head.names if head.header else trimmed(head.dialect.split(head.first[1] if head.first else ""))
+        words = head.names if head.header else trimmed(head.dialect.split(head.first))
         self._width = len(words)
         self._places = columns.among(words) if head.header else self._unnamed(head, comments)
         self._last = self._places.index(max(self._places)) if max(self._places) == self._width - 1 else None
@@ -123,10 +123,8 @@ class Table:
             names = Dialect(comment).split(comment)
             if len(names) == self._width and self._columns.named_by(names) and not all(map(is_numeric, names)):
                 return self._columns.among(names)
-        line = head.first[1] if head.first else ""
-        return self._columns.without_header(
-            self._width, self._dialect.hint(line, self._width, len(self._columns.wanted))
-        )
+        hint = self._dialect.hint(head.first, self._width, len(self._columns.wanted))
+        return self._columns.without_header(self._width, hint)
 
     def rows(self, lines: Iterable[Line]) -> Iterator[Line]:
         """The lines that hold rows: not those that are drawn or have empty fields alone, nor a client's last word.
@@ -141,9 +139,7 @@ class Table:
                 footer = FOOTER.fullmatch(text)
                 if footer and int(footer[1]) != count:
                     raise ValueError(f"line {line[0]} is '{text}', after {count} rows; all of them are accepted.")
-                if footer or not any(self._dialect.split(text)) or (text[0] not in "+-" and is_rule(text)):
-                    continue
-                if is_rule(text) and not any(map(str.isdigit, text)):
+                if footer or not any(self._dialect.split(text)) or is_rule(text):
                     continue
             count += 1
             yield line
@@ -155,7 +151,7 @@ class Table:
             ValueError: it has not as many fields as the first, or a word is no finite number.
         """
         number, text = line
-        words = trimmed(self._dialect.split(text), self._width)
+        words = trimmed(self._dialect.split(text, self._width), self._width)
         if len(words) != self._width:
             raise ValueError(
                 f"line {number} has {len(words)} fields; {self._width} are accepted, as in the first line of the table"

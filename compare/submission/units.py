@@ -25,7 +25,13 @@ RADIANS = {
 }  # fmt: skip
 METRES = {"m": "1", "metre": "1", "metres": "1", "meter": "1", "meters": "1", "mm": "0.001", "cm": "0.01", "km": "1000"}
 BASES = {"s": SECONDS, "rad": RADIANS, "m": METRES}
-WHOLE = {"rpm": ("rad s-1", "pi/30"), "1": ("1", "1"), "1/s": ("s-1", "1"), "s-1": ("s-1", "1"), "hz": ("s-1", "1")}
+WHOLE = {
+    "rpm": ("rad s-1", "pi/30"),
+    "1": ("1", "1"),
+    "1/s": ("s-1", "1"),
+    "s-1": ("s-1", "1"),
+    "hz": ("rad s-1", "2*pi"),
+}
 """Units that are no quotient of the others."""
 OVER = "|".join(sorted(SECONDS, key=len, reverse=True))
 QUOTIENT = re.compile(rf"(?P<of>\D+?)(?:(?:/|per)(?P<over>{OVER})|(?P<inverse>{OVER})-1)")

@@ -73,8 +73,8 @@ class ForeignColumn:
             )
         if item > LONGEST_NUMBER or size > MOST_BYTES:
             raise ValueError(
-                f"its numbers take {item} bytes and its chunks {short(str(size))}, of {LONGEST_NUMBER} and {MOST_BYTES} "
-                "that are accepted"
+                f"its numbers take {item} bytes and its chunks {short(str(size))}, of {LONGEST_NUMBER} and "
+                f"{MOST_BYTES} that are accepted"
             )
 
 

@@ -1,4 +1,4 @@
-"""``python -m compare score FILE``: files that are damaged, or are made to do harm, are one sentence with their name."""
+"""``python -m compare score FILE``: files that are damaged or made to do harm are one sentence with their name."""
 
 from __future__ import annotations
 
@@ -196,7 +196,8 @@ def test_a_header_of_python_2_is_read(tmp_path, capsys):
 
 
 def test_names_beyond_latin_letters_are_read(tmp_path, capsys):
-    np.save(tmp_path / "a.npy", TABLE.copy().view([("čas", float), ("úhel", float), ("rychlost ω", float)])[:, 0])
+    with pytest.warns(UserWarning, match="format 3.0"):
+        np.save(tmp_path / "a.npy", RECORDS.view([("čas", float), ("úhel", float), ("rychlost ω", float)]))
     options = ["--columns", "čas,úhel,rychlost ω", "--format", "json"]
     assert main(["score", str(tmp_path / "a.npy"), "--theta0", "1", *options]) == 0
     assert json.loads(capsys.readouterr().out)["rows"] == 40
@@ -232,22 +233,22 @@ SIZE = len(MEMBERS["t.npy"])
 STORED, DEFLATED = archive(MEMBERS), archive(MEMBERS, zipfile.ZIP_DEFLATED)
 FEWER = {**MEMBERS, "t.npy": header("(39,)") + T.tobytes()}
 NPZ = {
-    "an array of fewer rows than bytes": (archive(FEWER), "t.npy' declares an array of shape (39,), which takes 312 bytes,"),
+    "an array of fewer rows than bytes": (archive(FEWER), "declares an array of shape (39,), which takes 312 bytes,"),
     "arrays of more rows than bytes": (
-        archive({name: header("(41,)") + column.tobytes() for name, column in zip(MEMBERS, COLUMNS.values(), strict=True)}),
+        archive({f"{name}.npy": header("(41,)") + column.tobytes() for name, column in COLUMNS.items()}),
         "declares an array of shape (41,), which takes 328 bytes, and has 320",
     ),
-    "members that declare more than the archive has": (declared(DEFLATED, SIZE, SIZE * 5000), "declares 2240000 bytes of"),
+    "members that declare more than the archive has": (declared(DEFLATED, SIZE, SIZE * 5000), "declares 2240000 bytes"),
     "members that declare a little more": (declared(DEFLATED, SIZE, SIZE + 8), "declares an array of shape (40,)"),
-    "members that declare a little less": (declared(DEFLATED, SIZE, SIZE - 8), "zipfile says in its array t: Bad CRC-32"),
+    "members that declare a little less": (declared(DEFLATED, SIZE, SIZE - 8), "in its array t.npy: Bad CRC-32"),
     "a password": (STORED.replace(b"PK\x01\x02\x14\x03\x14\x00\x00", b"PK\x01\x02\x14\x03\x14\x00\x01"), "encrypted"),
-    "another packing": (archive(MEMBERS, zipfile.ZIP_BZIP2), "packed by method 12; stored and deflated ones are accepted"),
+    "another packing": (archive(MEMBERS, zipfile.ZIP_BZIP2), "packed by method 12; stored and deflated ones"),
     "a changed number": (STORED.replace(T[7:9].tobytes(), T[7:8].tobytes() + T[9:10].tobytes()), "Bad CRC-32 for file"),
     "an end that is cut off": (STORED[:-40], "File is not a zip file"),
     "a beginning that is cut off": (STORED[200:], "zipfile says"),
     "a hole in the packed bytes": (DEFLATED[:90] + bytes(20) + DEFLATED[110:], "zipfile says in its array t"),
     "a name twice": (archive({**MEMBERS, "t": MEMBERS["t.npy"]}), "holds 2 arrays called t; one of"),
-    "an array of Python objects": (archive({**MEMBERS, "t.npy": header("(40,)", "'|O'") + T.tobytes()}), "Python objects"),
+    "an array of Python objects": (archive({**MEMBERS, "t.npy": header("(40,)", "'|O'") + T.tobytes()}), "of Python"),
     "a text instead of an array": (archive({**MEMBERS, "t.npy": b"0,1,2"}), "NumPy cannot read"),
 }  # fmt: skip
 

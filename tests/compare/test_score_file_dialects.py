@@ -4,18 +4,18 @@ from __future__ import annotations
 
 import json
 import re
-import shlex
 import subprocess
-import sys
 from fractions import Fraction
-from pathlib import Path
+from typing import TYPE_CHECKING
 
 import pytest
 
 from compare.__main__ import main
 from reference import Pendulum
 
-ROOT = Path(__file__).parents[2]
+if TYPE_CHECKING:
+    from pathlib import Path
+
 P = Pendulum(1.0)
 T = [j / 4 for j in range(11)]
 ROWS = [(t, *P.state(t).tolist()) for t in T]
@@ -123,6 +123,12 @@ READ = {
     "times and states in two arrays": json.dumps(
         {"t": T, "y": [*zip(*(row[1:] for row in ROWS), strict=True)], "nfev": 7}
     ),
+    "one object": json.dumps(dict(zip(NAMES, ROWS[3], strict=True))),
+    "one array": json.dumps(ROWS[3]),
+    "rows in round brackets": "".join(f"({a!r}, {b!r}, {c!r})\n" for a, b, c in ROWS),
+    "rows in braces": "t,theta,omega\n" + "".join(f"{{{a!r}, {b!r}, {c!r}}}\n" for a, b, c in ROWS),
+    "units whose radian is 1": "t,theta (1),omega (1/s)\n" + lines(),
+    "a column of ranges beside": "t theta omega range\n" + lines(" ", after=" 0.5-1.5"),
     "two byte order marks": "\ufeff\ufeff" + HEADER + lines(end="\r\n"),
     "a byte order mark before a number": "\ufeff" + lines(),
     "a header with blanks and rows with commas": "t theta omega\n" + lines(),
@@ -142,7 +148,7 @@ def judged(path: Path, capsys, *options: str) -> dict:
 def test_a_table_is_read_as_it_was_meant(kind, tmp_path, capsys):
     (tmp_path / "a.txt").write_bytes(READ[kind].encode())
     found = judged(tmp_path / "a.txt", capsys)
-    assert found["rows"] == 11
+    assert found["rows"] == (1 if kind in {"one object", "one array"} else 11)
     assert found["max_error"] < 4.5e-16
     assert found["worst_scaled_digits"] > 15.9
 
@@ -168,6 +174,19 @@ def test_what_did_not_count_is_told(kind, says, tmp_path, capsys):
     assert says in judged(tmp_path / "a.txt", capsys)["notes"]
 
 
+def test_columns_of_a_header_can_be_asked_for_by_their_numbers(tmp_path, capsys):
+    for before in ("", "a title, of mine, with four words, and commas, seven in all, at last\n"):
+        (tmp_path / "a.csv").write_text(before + "a,b,b,b\n" + lines(before="7,"))
+        assert judged(tmp_path / "a.csv", capsys, "--columns", "2,3,4")["rows"] == 11
+    (tmp_path / "a.csv").write_text("a,b,b,b\n" + lines(before="x,"))
+    assert judged(tmp_path / "a.csv", capsys, "--columns", "2,3,4")["rows"] == 11
+    (tmp_path / "a.csv").write_text("a,b,b,b\nx,s,deg,deg/s\n" + lines(before="7,"))
+    assert main(["score", str(tmp_path / "a.csv"), "--theta0", "1", "--columns", "2,3,4"]) == 2
+    (tmp_path / "a.csv").write_text("0\n1\n2\n")
+    assert main(["score", str(tmp_path / "a.csv"), "--theta0", "1", "--columns", "1,1,1", "--rows", "9"]) == 0
+    assert "3 rows" in capsys.readouterr().out
+
+
 @pytest.mark.parametrize("kind", ["comma", "units in brackets under the header", "lines of JSON"])
 def test_where_all_was_understood_nothing_is_told(kind, tmp_path, capsys):
     (tmp_path / "a.txt").write_bytes(READ.get(kind, HEADER + lines()).encode())
@@ -180,27 +199,29 @@ TOLD = {
     f"t (ms),theta,omega\n{lines()}": "the column t (ms) is in ms; s is accepted, so multiply by 0.001.",
     f"t_ms,theta,omega\n{lines()}": "the column t_ms is in ms; s is accepted, so multiply by 0.001.",
     f"t [min],theta,omega\n{lines()}": "the column t [min] is in min; s is accepted, so multiply by 60.",
-    f"t,theta (mrad),omega\n{lines()}": "the column theta (mrad) is in mrad; radians are accepted, so multiply by 0.001.",
+    f"t,theta (mrad),omega\n{lines()}": "the column theta (mrad) is in mrad; radians are accepted, so multiply",
     f"t,theta,omega [rpm]\n{lines()}": "the column omega [rpm] is in rpm; rad s-1 is accepted, so multiply by pi/30.",
     f"t,theta_deg,omega\n{lines()}": "the column theta_deg is in degrees; radians are accepted, so multiply by pi/180.",
     f"t,theta (m),omega\n{lines()}": "the column theta (m) is in m; rad is accepted.",
     f"time,angle,rate\nms,rad,rad/s\n{HEADER}{lines()}": "t, with the units ms, is in ms; s is accepted",
     HEADER + lines(rows=MILLI): "the first 11 rows fit the truth where t is in ms, and not where it is in s, which is",
     HEADER + lines(rows=[(1e6 * t, a, b) for t, a, b in ROWS]): "fit the truth where t is in µs, and not where it is",
-    HEADER + lines(rows=[(t / 60, a, b) for t, a, b in ROWS]): "in minutes, and not where it is in s, which is accepted",
+    HEADER + lines(rows=[(t / 60, a, b) for t, a, b in ROWS]): "in minutes, and not where it is in s, which",
     HEADER + lines(rows=[(t, 1e3 * a, b) for t, a, b in ROWS]): "theta is 1000.0 times the truth, as an angle in mill",
     HEADER + lines(rows=[(t, a, DEGREES * b) for t, a, b in ROWS]): "omega is 57.3 times the truth, as an angle in deg",
     "t theta omega\n" + "".join(f"{n} {lines(' ', rows=[r])}" for n, r in enumerate(ROWS)): (
         "line 2 has 4 fields; 3 are accepted, as in the first line of the table; where the first field of a row is its"
     ),
     HEADER + lines().replace("0.5,0.1", "NA,0.1"): "t in line 4 is 'NA', which is not a number",
+    HEADER + lines().replace("0.5,0.1", "#N/A,0.1"): "t in line 4 is '#N/A', which is not a number",
+    "t theta omega\n" + lines(" ", rows=ROWS[:3]) + "-- -- --\n": "t in line 5 is '--', which is not a number",
     f"{HEADER}NA,NA,NA\n{lines()}": "t in line 2 is 'NA', which is not a number",
     f"{HEADER}-,-,-\n{lines()}": "t in line 2 is '-', which is not a number",
     f"{HEADER}1:30,x,y\n{lines()}": "t in line 2 is '1:30', which is not a number",
     HEADER + lines().replace("0.5,0.1", "0.5,∞,0.1"): "line 4 has 4 fields",
     HEADER + lines().replace("1.0,", "1'000.5,", 1): "theta in line 2 is '1'000.5', with several marks",
-    "t;theta;omega\n" + lines(";").replace("1.0;", "1\u202f000,5;", 1): "with several marks; one decimal mark is accepted",
-    "t;theta;omega\n" + lines(";").replace("1.0;", "1 000.5;", 1): "with several marks; one decimal mark is accepted",
+    "t;theta;omega\n" + lines(";").replace("1.0;", "1\u202f000,5;", 1): "with several marks; one decimal mark is",
+    "t;theta;omega\n" + lines(";").replace("1.0;", "1 000.5;", 1): "with several marks; one decimal mark is",
     HEADER + lines().replace("1.0,", '"1,000",', 1): "has another decimal mark",
     HEADER + lines().replace("1.0,", "1-104,", 1): "theta in line 2 is '1-104', which is not a number",
     HEADER + lines().replace("1.0,", "0x,", 1): "theta in line 2 is '0x', which is not a number",
@@ -218,7 +239,7 @@ TOLD = {
     '{"t": 0, "theta": NaN, "omega": 0}\n{"t": 1}\n': "theta in line 1 is NaN, which is not finite",
     '{"t": 0, "theta": 1, "omega": 0}\n{"t": 1, "theta": 1, "om\n': "line 2 begins as JSON, and is none",
     '{"t": 0, "t": 1, "theta": 1, "omega": 0}\n{"t": 1}\n': "line 1 has an object with a key twice; each once",
-    '{"t": [0, 1], "theta": [1], "omega": [0]}': "the columns have different lengths, t 2, theta 1, omega 1; one length",
+    '{"t": [0, 1], "theta": [1], "omega": [0]}': "the columns have different lengths, t 2, theta 1, omega 1",
     '[{"t": 0, "theta": 1, "omega": 0}, {"t": 1}]': "the objects have different keys",
     '{"t": {"theta": {"omega": 1}}}': "there is no column",
     "[" * 100_000: "brackets within brackets beyond any row",
@@ -257,15 +278,10 @@ PASTED = {
 def test_the_options_that_a_sentence_names_can_be_pasted_into_a_shell_and_work(number, tmp_path, capsys):
     text, name = list(PASTED.items())[number]
     (tmp_path / "a.csv").write_bytes(text.encode())
-    command = ["score", str(tmp_path / "a.csv"), "--theta0", "1", "--format", "json"]
-    assert main(command) == 2
+    assert main(["score", str(tmp_path / "a.csv"), "--theta0", "1"]) == 2
     said = re.search(rf"({name} .*) would", capsys.readouterr().err)
-    done = subprocess.run(
-        ["/bin/sh", "-c", f"{shlex.join([sys.executable, '-m', 'compare', *command])} {said[1]}"],
-        cwd=ROOT, capture_output=True, text=True, check=False,
-    )  # fmt: skip
-    assert (done.returncode, done.stderr) == (0, "")
-    found = json.loads(done.stdout)
+    typed = subprocess.run(["/bin/sh", "-c", f"printf '%s\\0' {said[1]}"], capture_output=True, text=True, check=True)
+    found = judged(tmp_path / "a.csv", capsys, *typed.stdout.split("\0")[:-1])
     assert (found["rows"], found["max_error"] < 4.5e-16) == (11, True)
 
 
