@@ -30,8 +30,8 @@ SURELY = ("//", "--", "*")
 """Of these what begins no name or field."""
 RULE = re.compile(r"[\s:|+=\-─━═┌┐└┘├┤┬┴┼╞╡╪╭╮╰╯│┆]*(?:-{2,}|[─━═]{2,}|={2,})[\s:|+=\-─━═┌┐└┘├┤┬┴┼╞╡╪╭╮╰╯│┆]*")
 """A line that is drawn, as in a table of Markdown or of a database's client."""
-ATTEMPT = re.compile(r"[+\-−–]?\s*[.,]?\d")
-"""How a number begins, right or wrong."""
+ATTEMPT = re.compile(r"\W*\d")
+"""How a number begins, right or wrong; a unit such as 1/s is known."""
 MISSING = frozenset({"", "na", "n/a", "#n/a", "null", "none", "nil", "nat", "missing", "-", "--", "?", ".", "nothing"})
 """What stands for a number that there is not."""
 
@@ -144,7 +144,9 @@ def _is_remark(cells: Sequence[str], words: Sequence[str]) -> bool:
     """Whether a line under the header is of text alone: no number, no attempt at one, and none that is missing."""
     if not any(words):
         return True
-    return not any(is_numeric(cell) or ATTEMPT.match(cell) or cell.casefold() in MISSING for cell in cells)
+    return all(
+        unit(cell) or not (ATTEMPT.match(cell) or cell.casefold() in MISSING or is_numeric(cell)) for cell in cells
+    )
 
 
 def _read_as_rows(head: Head) -> None:

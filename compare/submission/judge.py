@@ -96,7 +96,9 @@ class Judge:
         if not self.rows and not places[0]:
             refuse_other_units(self.problem.state_names, self._units, rows, truths)
             if self.time == "t":
-                refuse_other_times(self.time, rows, truths, partial(enclosure.balls, self.problem, "state", bits=bits))
+                refuse_other_times(
+                    self.time, self._units, rows, truths, partial(enclosure.balls, self.problem, "state", bits=bits)
+                )
             self._slip = exchanged(self.problem.state_names, rows, truths)
         with ctx.workprec(bits + SPARE_BITS + self.problem.working_bits(instants) + _whole_bits(rows)):
             bench = _Bench(self.problem, bits)

@@ -73,7 +73,11 @@ def _all_near(ratios: Sequence[float], factor: float) -> bool:
 
 
 def refuse_other_times(
-    time: str, rows: Sequence[Row], truths: Sequence[Sequence[arb]], truth: Callable[[list[Fraction]], list[Any]]
+    time: str,
+    units: Sequence[str],
+    rows: Sequence[Row],
+    truths: Sequence[Sequence[arb]],
+    truth: Callable[[list[Fraction]], list[Any]],
 ) -> None:
     """Refuse rows that are not where the motion is at their times, and are where it is in other units of time;
     ``truth`` gives the states at some times.
@@ -84,6 +88,23 @@ def refuse_other_times(
     given, true = _first(rows, truths)
     if len(given[0]) < LEAST_ROWS or max(map(_misfit, given, true)) <= FAILS:
         return
+    _refuse_times(time, given, rows, true, truth, "")
+    degrees = ANGLES[0][1]
+    turned = [
+        tuple(number / degrees for number in column) if unit.startswith("rad") else column
+        for unit, column in zip(units, given, strict=True)
+    ]
+    _refuse_times(time, turned, rows, true, truth, " and angles in degrees")
+
+
+def _refuse_times(
+    time: str,
+    given: Sequence[tuple[float, ...]],
+    rows: Sequence[Row],
+    true: Sequence[tuple[float, ...]],
+    truth: Callable[[list[Fraction]], list[Any]],
+    also: str,
+) -> None:
     for what, factor, by in TIMES:
         instants = [row.t.value * factor for row in rows[:FIRST_ROWS]]
         last = _states(truth, instants[-1:])
@@ -92,8 +113,8 @@ def refuse_other_times(
         found = _states(truth, instants)
         if found and max(map(_misfit, given, found)) < FITS:
             raise ValueError(
-                f"the first {len(instants)} rows fit the truth where {time} is in {what}, and not where it is in s, "
-                f"which is accepted, so multiply {time} by {by}."
+                f"the first {len(instants)} rows fit the truth where {time} is in {what}{also}, and not where it is in "
+                f"s, which is accepted, so multiply {time} by {by}{', and angles by pi/180' if also else ''}."
             )
 
 

@@ -1,12 +1,8 @@
 """Numbers as programs spell them that write no plain decimals: each as the decimal that it stands for, or exactly.
 
-−0.5                 U+2212 or a dash for minus
-0.1-104              Fortran, which leaves out the E of an exponent of three digits
-1.5*^-3, 0.5`16.     Mathematica's exponent, and its mark of a number's precision
-1.5×10^-3            a power of ten
-np.float64(0.5)      what NumPy, mpmath and Julia print of a number within a list
-0.5f0                Julia's single precision
-0x1.8p-2             C's %a and whoever prints the bits of a number
+U+2212 or a dash for minus; Fortran's 0.1-104, which leaves out the E of an exponent of three digits; Mathematica's
+exponent 1.5*^-3, and its mark of precision 0.5`16.; a power of ten such as 1.5×10^-3; np.float64(0.5) and mpf('0.5'),
+as numbers are shown within lists; a spreadsheet's ="0.5"; Julia's 0.5f0; and 0x1.8p-2 as C's %a prints the bits.
 """
 
 from __future__ import annotations
@@ -27,6 +23,7 @@ WRAPPERS = (
 WRAPPED = re.compile(
     rf"(?:[a-z_]\w*\.)*(?:{'|'.join(WRAPPERS)})\((['\"]?)({NUMBER}(?:[edq][+-]?\d+)?)\1\)", re.IGNORECASE | re.ASCII
 )
+FORMULA = re.compile(rf"=\s*(\"?)({NUMBER}(?:[eE][+-]?\d+)?)\1", re.ASCII)
 NO_LETTER = re.compile(r"([+-]?\d*\.\d+)([+-][1-9]\d\d)", re.ASCII)
 MATHEMATICA = re.compile(rf"({NUMBER})(?:``?(?:\d+\.?\d*)?)?(?:\*\^([+-]?\d+))?", re.ASCII)
 POWER = re.compile(rf"({NUMBER})\s*[*x×·⋅]\s*10(?:\^|\*\*)?\s*[({{]?([+-]?\d+)[)}}]?", re.ASCII)
@@ -46,7 +43,7 @@ def spelled(word: str) -> str | None:
     match = POWER.fullmatch(text.translate(RAISED))
     if match:
         return f"{match[1]}e{match[2]}"
-    match = WRAPPED.fullmatch(text)
+    match = WRAPPED.fullmatch(text) or FORMULA.fullmatch(text)
     return match[2] if match else None
 
 
