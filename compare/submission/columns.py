@@ -19,6 +19,8 @@ __all__ = ["DATASETS", "USUAL", "Columns", "asked_columns", "option"]
 
 DATASETS = "datasets"
 """What the columns of an HDF5 file are called; their names are paths."""
+MANY = 4096
+"""Columns among which names are looked for only as they are written, in each line that may be a header."""
 USUAL = "y"
 """What an array of all states is called by those who integrate."""
 
@@ -74,6 +76,8 @@ class Columns:
 
     def named_by(self, found: Sequence[str]) -> bool:
         """Whether these names of a text file's columns have all that are wanted, once or more often, by name."""
+        if len(found) > MANY:
+            return set(self.names) <= set(found)
         return all(where for where, _ in self._by_name(found, "columns"))
 
     def among(self, found: Sequence[str], kind: str = "columns") -> list[int]:

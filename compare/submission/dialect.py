@@ -20,8 +20,8 @@ SPACED = re.compile(r"[+-]?[0-9]{1,3}(?:['’\s][0-9]{3})+(?:[.,][0-9]*)?")
 """A number whose thousands are separated by apostrophes or blanks."""
 TOGETHER = re.compile(r"[+-]?\d+\.\d+(?:[eEdDqQ][+-]?\d+)?(?:-\d+\.\d+(?:[eEdDqQ][+-]?\d+)?)+", re.ASCII)
 """Fixed columns that a minus fills to the last place."""
-TUPLE = re.compile(r"[({]\s*([+\-]?[.\d][^(){}]*?)\s*[)}],?")
-"""A row in brackets."""
+NUMERALS = frozenset("0123456789+-.")
+BRACKETS = frozenset("(){}")
 PART = re.compile(r"[+-]?\d+\.\d+(?:[eEdDqQ][+-]?\d+)?", re.ASCII)
 COMMAS_BETWEEN = "where commas are decimal marks, columns with semicolons, tabs or blanks between them are accepted"
 
@@ -103,8 +103,9 @@ class Dialect:
 
 def _opened(line: str) -> str:
     """A line without the brackets that some languages print about the numbers of a row."""
-    match = TUPLE.fullmatch(line)
-    return match[1] if match else line
+    inner = line.rstrip(", ")[1:-1].strip()
+    whole = line.rstrip(", ")[-1] in ")}" and inner[:1] in NUMERALS and not BRACKETS & set(inner)
+    return inner if whole else line
 
 
 def _separator(line: str) -> str | None:

@@ -28,8 +28,9 @@ COMMENTED = (";", "//", "--", "*")
 """What marks lines before a table as comments, where all of them begin so."""
 SURELY = ("//", "--", "*")
 """Of these what begins no name or field."""
-RULE = re.compile(r"[\s:|+=\-─━═┌┐└┘├┤┬┴┼╞╡╪╭╮╰╯│┆]*(?:-{2,}|[─━═]{2,}|={2,})[\s:|+=\-─━═┌┐└┘├┤┬┴┼╞╡╪╭╮╰╯│┆]*")
-"""A line that is drawn, as in a table of Markdown or of a database's client."""
+DRAWN = frozenset(" \t:|+=-─━═┌┐└┘├┤┬┴┼╞╡╪╭╮╰╯│┆")
+"""What lines are drawn with in a table of Markdown, or of a database's client; runs of it are RUNS and longer."""
+RUNS = ("--", "==", "──", "━━", "══")
 ATTEMPT = re.compile(r"\W*\d")
 """How a number begins, right or wrong; a unit such as 1/s is known."""
 MISSING = frozenset({"", "na", "n/a", "#n/a", "null", "none", "nil", "nat", "missing", "-", "--", "?", ".", "nothing"})
@@ -82,6 +83,8 @@ def read_head(lines: Iterator[Line], comment: Callable[[str], None], columns: Co
             continue
         head = Head(Dialect(text, separator))
         words = trimmed(head.dialect.split(text))
+        if not words:
+            continue
         if columns.named_by(words) and not all(map(is_numeric, words)):
             head.names, head.header = words, number
             _understand(head, before, lines, columns)
@@ -106,7 +109,7 @@ def trimmed(words: Sequence[str], width: int = 0) -> list[str]:
 
 def is_rule(text: str) -> bool:
     """Whether a line is drawn, and holds nothing."""
-    return not text[0].isalnum() and RULE.fullmatch(text) is not None
+    return text[0] in DRAWN and any(run in text for run in RUNS) and set(text) <= DRAWN
 
 
 def _understand(head: Head, before: Sequence[Line], lines: Iterator[Line], columns: Columns) -> None:

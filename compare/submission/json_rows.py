@@ -104,7 +104,7 @@ def json_table(columns: Columns, first: Line, lines: Iterator[Line]) -> tuple[Js
         parts.append(part)
     names, rows = _rows_of(columns, _read("\n".join(parts), "the file"))
     table = JsonTable(columns, names, len(rows[0]) if rows else len(columns.wanted), "row")
-    return table, iter([(place, json.dumps(row)) for place, row in enumerate(rows, start=1)])
+    return table, ((place, json.dumps(row)) for place, row in enumerate(rows, start=1))
 
 
 def _closed(text: str) -> bool:

@@ -33,6 +33,8 @@ WHOLE = {
     "hz": ("rad s-1", "2*pi"),
 }
 """Units that are no quotient of the others."""
+LONGEST = 80
+"""Characters of a name that says its unit."""
 OVER = "|".join(sorted(SECONDS, key=len, reverse=True))
 QUOTIENT = re.compile(rf"(?P<of>\D+?)(?:(?:/|per)(?P<over>{OVER})|(?P<inverse>{OVER})-1)")
 BRACKETS = re.compile(r"(?P<name>.*?)\s*(?:\[(?P<square>[^][]*)\]|\((?P<round>[^()]*)\)|\{(?P<brace>[^{}]*)\})")
@@ -52,6 +54,8 @@ class Unit(NamedTuple):
 
 def unit(text: str) -> Unit | None:
     """The unit that a text names, with its brackets or without; None where it is none that is known."""
+    if len(text) > LONGEST:
+        return None
     bare = text.strip().strip("[](){}<>").strip().casefold().replace("μ", "µ")
     for old, new in (("⁻¹", "-1"), ("−", "-"), ("^(-1)", "-1"), ("^", ""), ("{", ""), ("}", "")):
         bare = bare.replace(old, new)
@@ -74,6 +78,9 @@ def unit(text: str) -> Unit | None:
 
 def split_name(name: str) -> Iterator[tuple[str, str]]:
     """A column's name as it may be meant: without and with what it says of its unit, "" where it says none."""
+    if len(name) > LONGEST:
+        yield name, ""
+        return
     match = BRACKETS.fullmatch(name)
     if match and match["name"]:
         yield match["name"], match["square"] or match["round"] or match["brace"] or ""

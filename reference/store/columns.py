@@ -65,7 +65,7 @@ class ForeignColumn:
             return data[0, rows] if self._one_row else data[rows, 0] if self._one_column else data[rows]
 
     def _refuse_wrong_size(self) -> None:
-        item, chunks, held = self._data.dtype.itemsize, self._data.chunks, self._data.id.get_storage_size()
+        item, chunks, held = self._data.id.get_type().get_size(), self._data.chunks, self._data.id.get_storage_size()
         size = item * math.prod(chunks or ())
         if chunks is None and held not in {0, item * self._data.size}:  # what was never written takes nothing
             raise ValueError(

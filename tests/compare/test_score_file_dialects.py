@@ -104,6 +104,7 @@ READ = {
     "a table of Markdown without outer bars": "t | theta | omega\n--|---|--\n" + lines(" | "),
     "a database's table": MYSQL + lines(" | ", before="| ", after=" |") + "+------+-------+-------+\n",
     "another database's table": "  t  | theta | omega\n-----+-------+-------\n" + lines(" | ") + "(11 rows)\n",
+    "empty fields before the header": ";;\n;;\nt;theta;omega\n" + lines(";"),
     "a database's list": "t|theta|omega\n" + lines("|"),
     "a data frame in a box": BOX + lines(" ┆ ", before="│ ", after=" │") + "└─────┴───────┴───────┘\n",
     "lines of JSON": "".join(json.dumps(dict(zip(NAMES, row, strict=True))) + "\n" for row in ROWS),
@@ -315,6 +316,31 @@ def test_arrays_have_no_lines_to_skip(tmp_path, capsys):
     (tmp_path / "a.npy").write_bytes(b"")
     assert main(["score", str(tmp_path / "a.npy"), "--theta0", "1", "--skip", "1"]) == 2
     assert "has no lines; --skip and --comment are accepted of text." in capsys.readouterr().err
+
+
+HUGE = 1 << 18
+LONG = {
+    "-" * HUGE + "x": "there is no column t",
+    "(" + " " * HUGE + "1": "there is no column t",
+    "{1" + " " * HUGE + "(": "there is no column t",
+    "a" * HUGE: "there is no column t",
+    "," * HUGE: "has no rows",
+    "a," * HUGE + "\n" + "b," * HUGE: "there is no column t",
+    "a" * 100 + " " * HUGE + "b / c": "there is no column t",
+    f"{HEADER}0,1,{'9' * HUGE}": "beyond the limit of 4000 digits",
+    f"{HEADER}0,1,{'9-' * HUGE}": "which is not a number",
+    f"{HEADER}0,1,{'f.' * (HUGE // 2)}(1)": "which is not a number",
+    "t theta omega\n0 1 " + "0.5-" * (HUGE // 4): "which is not a number",
+    f"{HEADER}0,1,0x{'f' * HUGE}": "which is not a number",
+}
+
+
+@pytest.mark.parametrize("number", range(len(LONG)))
+def test_long_lines_of_anything_are_refused_before_they_cost(number, tmp_path, capsys):
+    text, says = list(LONG.items())[number]
+    (tmp_path / "a.csv").write_text(text)
+    assert main(["score", str(tmp_path / "a.csv"), "--theta0", "1"]) == 2
+    assert says in capsys.readouterr().err
 
 
 @pytest.mark.parametrize("cut", [3, 6, 9])

@@ -144,6 +144,14 @@ def test_names_that_do_not_lead_to_states_are_one_sentence(name, columns, says, 
     assert says in err
 
 
+@pytest.mark.parametrize("suffix", ["npz", "h5"])
+def test_arrays_are_known_by_other_names_of_the_same(suffix, tmp_path, capsys):
+    path = tmp_path / f"a.{suffix}"
+    saved(path, {"time": T, "theta": Y[:, 0], "theta_dot": Y[:, 1], "note": T})
+    assert main(["score", str(path), "--theta0", "1", "--format", "json"]) == 0
+    assert json.loads(capsys.readouterr().out)["worst_row"] == 31
+
+
 def test_the_groups_of_equal_columns_are_named(tmp_path, capsys):
     saved(tmp_path / "a.h5", {f"{run}/{name}": T for run in ("b", "a") for name in ("t", "theta", "omega")})
     assert main(["score", str(tmp_path / "a.h5"), "--theta0", "1"]) == 2
