@@ -57,24 +57,29 @@ class ForeignColumn:
         Raises:
             ValueError: they cannot be read, or are of numbers or chunks that are too large to be any.
         """
+        self._refuse_wrong_size()
         with told(self._path, self._name):
-            self._refuse_wrong_size()
             data = self._data.asstr() if self.is_text else self._data
             if self._field is not None:
                 data = data.fields(self._field)
             return data[0, rows] if self._one_row else data[rows, 0] if self._one_column else data[rows]
 
     def _refuse_wrong_size(self) -> None:
-        item, chunks, held = self._data.id.get_type().get_size(), self._data.chunks, self._data.id.get_storage_size()
-        size = item * math.prod(chunks or ())
-        if chunks is None and held not in {0, item * self._data.size}:  # what was never written takes nothing
+        with told(self._path, self._name):
+            item, held = self._data.id.get_type().get_size(), self._data.id.get_storage_size()
+            chunks, declared = self._data.chunks, item * self._data.size
+        where = f"the dataset {short(self._name)} of '{self._path}'"
+        written = {0, declared}  # what was never written takes nothing
+        if chunks is None and held not in written and not self._data.dtype.hasobject:
             raise ValueError(
-                f"it declares {short(str(item * self._data.size))} bytes of numbers and holds {short(str(held))}"
+                f"{where} declares {short(str(declared))} bytes of numbers and holds {short(str(held))}; as many as "
+                "are declared are accepted."
             )
+        size = item * math.prod(chunks or ())
         if item > LONGEST_NUMBER or size > MOST_BYTES:
             raise ValueError(
-                f"its numbers take {item} bytes and its chunks {short(str(size))}, of {LONGEST_NUMBER} and "
-                f"{MOST_BYTES} that are accepted"
+                f"{where} has numbers of {item} bytes in chunks of {short(str(size))}; {LONGEST_NUMBER} and "
+                f"{MOST_BYTES} are accepted."
             )
 
 

@@ -280,7 +280,7 @@ def test_a_chunk_of_a_gigabyte_is_refused_before_it_is_unpacked(tmp_path, capsys
         for name in COLUMNS:
             file.create_dataset(name, shape=(1 << 27,), dtype=float, chunks=(1 << 27,), compression="gzip")
     content = (tmp_path / "a.h5").read_bytes()
-    refused(tmp_path / "a.h5", content, "its numbers take 8 bytes and its chunks 1073741824, of 16384 and", capsys)
+    refused(tmp_path / "a.h5", content, "has numbers of 8 bytes in chunks of 1073741824; 16384 and 67108864", capsys)
 
 
 def test_what_hdf5_says_of_a_damaged_file_has_the_files_name(tmp_path, capsys):
@@ -290,6 +290,14 @@ def test_what_hdf5_says_of_a_damaged_file_has_the_files_name(tmp_path, capsys):
     packed = hdf5(COLUMNS, chunks=(8,), compression="gzip")
     at = packed.rindex(b"x\x5e")
     refused(tmp_path / "a.h5", packed[:at] + bytes(8) + packed[at + 8 :], "cannot be read: HDF5 says in its", capsys)
+
+
+def test_a_dataset_that_declares_fewer_rows_than_it_holds_is_refused(tmp_path, capsys):
+    whole = hdf5({"run": RECORDS})
+    shape = struct.pack("<Q", 40)
+    assert whole.count(shape * 2) == 1  # the shape, and the largest that it may have
+    changed = whole.replace(shape * 2, struct.pack("<Q", 39) * 2)
+    refused(tmp_path / "a.h5", changed, "declares 936 bytes of numbers and holds 960; as many as are", capsys)
 
 
 def test_a_dataset_of_a_kind_that_numpy_has_not_is_no_column(tmp_path, capsys):
