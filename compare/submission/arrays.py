@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import sys
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 
 from compare.submission.chunk import Chunk, Doubles, Row
-from compare.submission.npz import NO_NPY
+from compare.submission.npy import table_of
 from compare.submission.written import LOG10_2, of_value
 
 if TYPE_CHECKING:
@@ -30,7 +31,10 @@ class Column(Protocol):
     dtype: Any
 
     def read(self, count: int) -> Any:
-        """The next ``count`` numbers, or those that are left."""
+        """The next ``count`` numbers."""
+
+    def finish(self) -> None:
+        """Read on to the end of what the file has, where that tells whether all was as it was written."""
 
 
 class Sliced:
@@ -45,6 +49,9 @@ class Sliced:
         begin = self._position
         self._position += count
         return self._pick(slice(begin, begin + count))
+
+    def finish(self) -> None:
+        """There is nothing more to be told."""
 
 
 def chunks(columns: Columns, found: Sequence[Column], size: int) -> Iterator[Chunk]:
@@ -64,8 +71,27 @@ def chunks(columns: Columns, found: Sequence[Column], size: int) -> Iterator[Chu
     if not rows:
         raise ValueError("there are no rows; a row for each time is accepted.")
     for begin in range(0, rows, size):
-        parts = [np.asarray(column.read(min(size, rows - begin))) for column in found]
+        count = min(size, rows - begin)
+        parts = [np.asarray(column.read(count)) for column in found]
+        if any(part.shape != (count,) for part in parts):
+            raise ValueError(f"there are fewer rows than the {rows} that the file declares; all of them are accepted.")
+        for name, part in zip(names, parts, strict=True):
+            _refuse_no_letters(name, part)
         yield Chunk(len(parts[0]), Exact(names, parts, begin), _doubles(parts))
+    for column in found:
+        column.finish()
+
+
+def _refuse_no_letters(name: str, part: np.ndarray) -> None:
+    """Refuse strings of NumPy's whose numbers are of no letters, which Python cannot take for text.
+
+    Raises:
+        ValueError: there is one.
+    """
+    if part.dtype.kind == "U" and part.size:
+        letters = np.ascontiguousarray(part).view(np.dtype(np.uint32).newbyteorder(part.dtype.byteorder))
+        if int(letters.max()) > sys.maxunicode:
+            raise ValueError(f"{name} has a string that is no text; decimals such as '0.5' are accepted.")
 
 
 class Exact:
@@ -105,16 +131,13 @@ def npy_columns(path: Path, columns: Columns) -> Iterator[list[Column]]:
     Raises:
         ValueError: it is no such file.
     """
-    try:
-        array: Any = np.load(path, mmap_mode="r", allow_pickle=False)
-    except (ValueError, EOFError) as error:
-        raise ValueError(f"'{path}' is a file {NO_NPY}.") from error
-    if array.dtype.names:
-        names = array.dtype.names
-        yield [_field(array, names[place]) for place in columns.among(names, "fields")]
-    elif array.ndim != 2:
-        raise ValueError(f"the array has the shape {array.shape}; [rows, columns] is accepted.")
-    else:
+    with table_of(path) as array:
+        if array.dtype.names:
+            names = array.dtype.names
+            yield [_field(array, names[place]) for place in columns.among(names, "fields")]
+            return
+        if array.ndim != 2:
+            raise ValueError(f"the array has the shape {array.shape}; [rows, columns] is accepted.")
         count = len(columns.wanted)
         hint = f"; the array has the shape {array.shape}, so that its transpose may be meant"
         places = columns.without_header(array.shape[1], hint if array.shape[0] == count else "")

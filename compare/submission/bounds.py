@@ -28,12 +28,14 @@ class Bounds(NamedTuple):
         about: number - truth, [rows, state], nearer to the exact error than ``errors`` tell.
         errors: at least |number - truth|, [rows, state].
         digits: at most the correct digits of each number, [rows, state].
+        truths: at least |truth|, [rows, state].
         found: the bounds on phase, amplitude and energy.
     """
 
     about: np.ndarray
     errors: np.ndarray
     digits: np.ndarray
+    truths: np.ndarray
     found: Found
 
 
@@ -54,12 +56,13 @@ class Bounder:
         with np.errstate(all="ignore"):
             true = self._sketch.states(t, rounding)
             truths = np.stack([true.theta, true.omega], axis=1)
-            within = np.stack([true.theta_within, true.omega_within], axis=1) + SLACK * np.abs(numbers[:, 1:])
+            apart = np.stack([true.theta_within, true.omega_within], axis=1)
+            within = apart + SLACK * np.abs(numbers[:, 1:])
             about = numbers[:, 1:] - truths
             errors, least = np.abs(about) + within, np.abs(truths) - within
             digits = np.where(least > 0, np.maximum(0.0, -np.log10(errors / least) - SLACK), 0.0)
             found = self._places.found(theta, omega, true, np.abs(t) * rounding * self._sketch.frequency)
-        return Bounds(about, errors, digits, found)
+        return Bounds(about, errors, digits, np.abs(truths) + apart, found)
 
 
 def bounder(problem: Problem) -> Bounder | None:

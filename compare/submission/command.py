@@ -10,7 +10,6 @@ from compare.submission.columns import Columns
 from compare.submission.crew import Crew
 from compare.submission.files import Rows
 from compare.submission.judge import CHUNK, Judge
-from compare.submission.record import Running, capped
 from compare.submission.show import csv_header, csv_rows, rendered
 from compare.submission.sift import Sift
 from reference.families import FAMILIES
@@ -20,6 +19,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping
 
     from compare.submission.chunk import Chunk
+    from compare.submission.lines import Passed
     from compare.submission.record import Point
     from reference.at import Family
     from reference.problem import Problem
@@ -37,6 +37,7 @@ class Submission:
         inputs: the problem's parameters by name, as they were typed; those that were given.
         exact: whether parameters and times are taken as written, else as the doubles that they spell.
         columns: the file's names of the time and the state, or None for the usual ones.
+        passed: which lines of a text are no part of its table.
         rows: how many rows are shown at most.
         form: text, markdown, latex, json or csv; the last shows every row.
     """
@@ -46,6 +47,7 @@ class Submission:
     inputs: Mapping[str, str]
     exact: bool
     columns: tuple[str, ...] | None
+    passed: Passed
     rows: int
     form: str
 
@@ -66,21 +68,23 @@ def judged(asked: Submission, progress: Callable[[str], None] | None = None) -> 
     """
     problem = _problem(asked)
     judge = Judge(problem)
-    columns = Columns((judge.time, *problem.state_names), asked.columns)
-    rows = Rows(asked.file, columns, as_written=asked.exact)
-    running = Running(problem.state_names, keep=asked.rows)
+    columns = Columns((judge.time, *problem.state_names), asked.columns, judge.units)
+    rows = Rows(asked.file, columns, asked.passed, as_written=asked.exact)
+    running = judge.running(asked.rows)
     done = 0
     with Crew(judge) as crew:
         sift = Sift(judge, running, crew)
         for points, held, count in _found(rows, judge, crew, crew.points if asked.form == "csv" else sift.points):
             running.add(points)
             if asked.form == "csv":
-                yield ("" if done else csv_header(problem.state_names)) + csv_rows(capped(p, held) for p in points)
+                yield ("" if done else csv_header(problem.state_names)) + csv_rows(
+                    running.resolved(p, held) for p in points
+                )
             done += count
             if progress is not None:
                 progress(f"{done} rows")
     if asked.form != "csv":
-        yield rendered(judge.score(running, rows.times), asked.form)
+        yield rendered(judge.score(running, rows.times, rows.notes), asked.form)
 
 
 def _found(

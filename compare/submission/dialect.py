@@ -5,45 +5,73 @@ from __future__ import annotations
 import csv
 import re
 
+from compare.submission.spellings import hexadecimal, spelled
 from compare.submission.written import DECIMAL, DECIMAL_COMMA, NOT_FINITE, Written, of_decimal
 from reference.names import short
 
-__all__ = ["Dialect", "is_numeric"]
+__all__ = ["SEPARATORS", "Dialect", "is_numeric"]
 
-SEPARATORS = (";", "\t", ",")
+SEPARATORS = (";", "\t", "|", ",")
+BOXES = str.maketrans("│┃║┆┊", "|||||")
+"""What is drawn between columns, as a bar."""
 GROUPED = re.compile(r"[+-]?\d[\d.,]*\d(?:[edq][+-]?\d+)?", re.IGNORECASE | re.ASCII)
 """A number that may have more than one mark, as thousands are separated: 1.234,5 or 1,234.5."""
+SPACED = re.compile(r"[+-]?[0-9]{1,3}(?:['’\s][0-9]{3})+(?:[.,][0-9]*)?")
+"""A number whose thousands are separated by apostrophes or blanks."""
+TOGETHER = re.compile(r"[+-]?\d+\.\d+(?:[eEdDqQ][+-]?\d+)?(?:-\d+\.\d+(?:[eEdDqQ][+-]?\d+)?)+", re.ASCII)
+"""Fixed columns that a minus fills to the last place."""
+NUMERALS = frozenset("0123456789+-.")
+BRACKETS = frozenset("(){}")
+PART = re.compile(r"[+-]?\d+\.\d+(?:[eEdDqQ][+-]?\d+)?", re.ASCII)
 COMMAS_BETWEEN = "where commas are decimal marks, columns with semicolons, tabs or blanks between them are accepted"
 
 
 class Dialect:
-    """The dialect of a table that has this first line.
+    """The dialect of a table that has this line, and this separator where the table says it.
 
     Attributes:
-        separator: ";", a tab, "," or None for blanks: the first of these that the line has.
+        separator: ";", a tab, a bar, "," or None for blanks: the first of these that the line has.
         mark: "." or ",": the decimal mark of the first number that has one; "" before.
+        together: whether numbers that run together were taken apart.
     """
 
-    def __init__(self, line: str) -> None:
-        self.separator = _separator(line)
+    def __init__(self, line: str, separator: str = "") -> None:
+        self.separator = separator or _separator(line)
         self.mark = ""
+        self.together = False
         self._first = ""
 
-    def split(self, line: str) -> list[str]:
-        """The words of a line, without their quotes.
+    def split(self, line: str, width: int = 0) -> list[str]:
+        """The words of a line, without their quotes; where they are not ``width``, without what runs together.
 
         Raises:
             ValueError: one is longer than any number.
         """
-        if '"' in line and self.separator is not None:
+        if self.separator != "\t":
+            line = line.strip() if self.separator else line.replace("\t", " ").strip()
+        if self.separator == "|":
+            line = line.translate(BOXES).strip()
+            line = line.removeprefix("|")
+            line = line.removesuffix("|")
+        if line[:1] in {"(", "{"}:
+            line = _opened(line)
+        if '"' in line:
             try:
-                words = next(csv.reader([line], delimiter=self.separator, skipinitialspace=True))
+                words = next(csv.reader([line], delimiter=self.separator or " ", skipinitialspace=True))
             except csv.Error:  # nothing else can be wrong with a single line
                 raise ValueError(
                     f"a field in quotes is longer than {csv.field_size_limit()} characters; numbers are accepted."
                 ) from None
-            return [word.strip() for word in words]
-        return [word.strip().strip("\"'") for word in line.split(self.separator)]
+            return [word.strip() for word in words if word or self.separator]
+        words = [word.strip().strip("\"'") for word in line.split(self.separator)]
+        return self._apart(words) if self.separator is None and len(words) != width else words
+
+    def _apart(self, words: list[str]) -> list[str]:
+        """The words, of which those are taken apart that run together at a minus."""
+        if not any("-" in word[1:] and TOGETHER.fullmatch(word) for word in words):
+            return words
+        self.together = True
+        return [part for word in words for part in (PART.findall(word) if TOGETHER.fullmatch(word) else [word])]
 
     def number(self, word: str, name: str, at: str) -> Written:
         """The decimal that a word spells, exactly, with a point in its text; ``name`` and ``at`` say which it is.
@@ -51,8 +79,9 @@ class Dialect:
         Raises:
             ValueError: it spells none, or has another decimal mark than those before.
         """
-        mark = "," if DECIMAL_COMMA.fullmatch(word) else "." if "." in word and DECIMAL.fullmatch(word) else ""
-        if not mark and _is_grouped(word):
+        word = spelled(word) or word
+        mark = "," if _has_comma(word) else "." if "." in word and DECIMAL.fullmatch(word) else ""
+        if not mark and (_is_grouped(word) or SPACED.fullmatch(word)):
             raise ValueError(
                 f"{name} in {at} is '{short(word)}', with several marks; one decimal mark is accepted, and none "
                 "between thousands."
@@ -72,7 +101,15 @@ class Dialect:
         return f"; {COMMAS_BETWEEN}" if doubtful else ""
 
 
+def _opened(line: str) -> str:
+    """A line without the brackets that some languages print about the numbers of a row."""
+    inner = line.rstrip(", ")[1:-1].strip()
+    whole = line.rstrip(", ")[-1] in ")}" and inner[:1] in NUMERALS and not BRACKETS & set(inner)
+    return inner if whole else line
+
+
 def _separator(line: str) -> str | None:
+    line = line.translate(BOXES)
     found = next((separator for separator in SEPARATORS if separator in line), None)
     if found != ",":
         return found
@@ -85,7 +122,13 @@ def is_numeric(word: str) -> bool:
     """Whether a word is meant as a number: a header's is not."""
     digits = word.replace(",", ".", 1)
     decimal = DECIMAL.fullmatch(digits) and any(map(str.isdigit, digits))
-    return bool(decimal or NOT_FINITE.fullmatch(word)) or _is_grouped(word)
+    if decimal or NOT_FINITE.fullmatch(word) or _is_grouped(word):
+        return True
+    return spelled(word) is not None or (len(word) < 200 and hexadecimal(word) is not None)
+
+
+def _has_comma(word: str) -> bool:
+    return "," in word and DECIMAL_COMMA.fullmatch(word) is not None
 
 
 def _is_grouped(word: str) -> bool:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from compare.submission.arrays import chunks, npy_columns
 from compare.submission.hdf5 import hdf5_columns
+from compare.submission.lines import NOTHING
 from compare.submission.npz import npz_columns
 from compare.submission.text import STANDARD_INPUT, TextRows
 
@@ -15,10 +16,11 @@ if TYPE_CHECKING:
 
     from compare.submission.chunk import Chunk
     from compare.submission.columns import Columns
+    from compare.submission.lines import Passed
 
 __all__ = ["SUFFIXES", "Rows"]
 
-TEXT = (".csv", ".tsv", ".txt", ".dat")
+TEXT = (".csv", ".tsv", ".txt", ".dat", ".tab", ".prn", ".lvm", ".json", ".jsonl", ".ndjson")
 HDF5 = (".h5", ".hdf5", ".nc", ".mat")
 """HDF5 itself, and what is written in it: netCDF-4, and MATLAB's files since version 7.3."""
 SUFFIXES = (*TEXT, ".npy", ".npz", *HDF5)
@@ -29,19 +31,21 @@ class Rows:
 
     Attributes:
         times: how times are read, known after the first chunk: "as written" or "binary64".
+        notes: sentences on what did not count, or may be amiss; known after the last chunk.
 
     Raises:
         FileNotFoundError: there is no such file.
         IsADirectoryError: it is a folder.
-        ValueError: its suffix is of no format that is read here, or has no array of all states, which was asked for.
+        ValueError: its suffix is of no format that is read here, or has no array of all states, which was asked for, or
+            no lines that could be passed over.
     """
 
-    def __init__(self, name: str, columns: Columns, *, as_written: bool) -> None:
+    def __init__(self, name: str, columns: Columns, passed: Passed = NOTHING, *, as_written: bool) -> None:
         self._path, self._columns = Path(name), columns
         self._suffix = TEXT[0] if name == STANDARD_INPUT else self._path.suffix.lower()
         if self._suffix not in (".npz", *HDF5):
             columns.refuse_packed()
-        self._text = TextRows(columns, as_written=as_written)
+        self._text = TextRows(columns, passed, as_written=as_written)
         if name == STANDARD_INPUT:
             return
         if self._path.is_dir():
@@ -50,10 +54,16 @@ class Rows:
             raise FileNotFoundError(f"there is no file '{name}'.")
         if self._suffix not in SUFFIXES:
             raise ValueError(f"'{name}' is of no format that is read here; accepted are {', '.join(SUFFIXES)}.")
+        if passed != NOTHING and self._suffix not in TEXT:
+            raise ValueError(f"'{name}' has no lines; --skip and --comment are accepted of text.")
 
     @property
     def times(self) -> str:
         return self._text.times
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        return tuple(self._text.notes)
 
     def chunks(self, size: int) -> Iterator[Chunk]:
         """Read the file, ``size`` rows at a time.

@@ -5,14 +5,15 @@ from __future__ import annotations
 import math
 import sys
 from fractions import Fraction
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from flint import arb
 
 from compare.submission.orbit import orbits, remark
 from compare.submission.place import apart
-from compare.submission.record import Point
-from compare.submission.slips import exchanged, refuse_degrees
+from compare.submission.record import Point, Running
+from compare.submission.slips import exchanged, refuse_other_times, refuse_other_units
 from compare.submission.turns import Turns
 from reference.arithmetic import BALL
 from reference.names import short
@@ -26,7 +27,7 @@ if TYPE_CHECKING:
 
     from compare.submission.chunk import Row
     from compare.submission.place import Orbits
-    from compare.submission.record import Running, Score
+    from compare.submission.record import Score
     from compare.submission.written import Written
 
 __all__ = ["CHUNK", "Judge"]
@@ -65,6 +66,11 @@ class Judge:
         self.last: Written | None = None
         self._slip = ""
 
+    def running(self, keep: int | None) -> Running:
+        """A summary of no rows yet, which keeps ``keep`` of them at most; all if it is None."""
+        start = [_log_size(BALL.number(value)) for value in self.problem.start]
+        return Running(self.problem.state_names, keep, start)
+
     def expect(self, digits: Iterable[float]) -> None:
         """Learn the digits of numbers to come."""
         self.held = max(self.held, max(digits, default=0.0))
@@ -91,7 +97,11 @@ class Judge:
         instants = [row.t.value for row in rows]
         truths = enclosure.balls(self.problem, "state", instants, bits)
         if not self.rows and not places[0]:
-            refuse_degrees(self.problem.state_names, self._units, rows, truths)
+            refuse_other_units(self.problem.state_names, self._units, rows, truths)
+            if self.time == "t":
+                refuse_other_times(
+                    self.time, self._units, rows, truths, partial(enclosure.balls, self.problem, "state", bits=bits)
+                )
             self._slip = exchanged(self.problem.state_names, rows, truths)
         with ctx.workprec(bits + SPARE_BITS + self.problem.working_bits(instants) + _whole_bits(rows)):
             bench = _Bench(self.problem, bits)
@@ -105,9 +115,16 @@ class Judge:
         self.rows += count
         self.last = last
 
-    def score(self, running: Running, times: str) -> Score:
-        """The summary of all rows so far, which ``running`` took in; ``times`` says how times were read."""
-        return running.score(repr(self.problem), self._units, self.held, times, self._notes(running))
+    @property
+    def units(self) -> tuple[str, ...]:
+        """The units of the time and of the state's numbers."""
+        return ("s" if self.time == "t" else "1", *self._units)
+
+    def score(self, running: Running, times: str, notes: Sequence[str] = ()) -> Score:
+        """The summary of all rows so far, which ``running`` took in; ``times`` says how times were read, and ``notes``
+        what else is to be known of the file.
+        """
+        return running.score(repr(self.problem), self._units, self.held, times, (*notes, *self._notes(running)))
 
     def _notes(self, running: Running) -> tuple[str, ...]:
         """What could not be judged, or is to be known of it, in sentences."""
@@ -167,6 +184,7 @@ class _Bench:
         y = [BALL.number(given.value) for given in state]
         errors = [given - true for given, true in zip(y, truth, strict=True)]
         decimals = [self._digits(*pair) for pair in zip(errors, truth, strict=True)]
+        relative = tuple(map(_correct, state, decimals, errors))
         phase, amplitude = self._orbital(t.value, y)
         energy = self._energy_error(y)
         floats = tuple(float(error) for error in errors)
@@ -180,21 +198,28 @@ class _Bench:
             number=number,
             t=t.text,
             values=tuple(given.text for given in state),
-            digits=min(map(_correct, state, decimals, errors)),
+            digits=min((digits for digits in relative if not math.isnan(digits)), default=math.inf),
             error=max(abs(error) for error in floats),
             errors=floats,
             first_wrong=tuple(map(_first_wrong, state, decimals, errors)),
             phase_error=phase,
             amplitude_error=amplitude,
             energy_error=energy,
+            scaled_digits=math.nan,
+            relative=relative,
+            sizes=tuple(
+                -math.inf if math.isinf(digits) else _log10(abs(error))
+                for digits, error in zip(decimals, errors, strict=True)
+            ),
+            truths=tuple(map(_log_size, truth)),
         )
 
     def _digits(self, error: arb, truth: arb) -> float:
-        """-log10 |error/truth|, not below 0: infinite where the truth is met as far as it is known."""
+        """-log10 |error/truth|, not below 0: infinite where that is met as far as it is known; NaN where it is 0."""
         size = abs(error)
         if size <= self._resolution * abs(truth) or error.is_zero():
             return math.inf
-        return max(0.0, -_log10(size / abs(truth))) if not truth.is_zero() else 0.0
+        return max(0.0, -_log10(size / abs(truth))) if not truth.is_zero() else math.nan
 
     def _orbital(self, t: Fraction, y: Sequence[arb]) -> tuple[float, float]:
         """(phase error in rad, amplitude error in rad)."""
@@ -222,11 +247,16 @@ def _log10(ball: arb) -> float:
     return float(ball.mid().log() / arb(10).log())
 
 
+def _log_size(ball: arb) -> float:
+    """log10 of its size, -infinite where it is exactly zero."""
+    return -math.inf if ball.is_zero() else _log10(abs(ball))
+
+
 def _correct(given: Written, digits: float, error: arb) -> float:
     """The digits, or all that are written where the last of them is right too."""
     if given.last is not None and abs(error) <= arb(10) ** given.last / 2:
         return max(digits, given.digits)
-    return max(digits, 0.0)
+    return digits
 
 
 def _first_wrong(given: Written, digits: float, error: arb) -> int | None:

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import re
 from typing import TYPE_CHECKING, Any
 
 from compare.submission.columns import asked_columns
+from compare.submission.lines import Passed
 from compare.table import FORMATS
 from reference.names import short
 from reference.terminal import one_of
@@ -15,7 +17,7 @@ if TYPE_CHECKING:
 __all__ = ["add_options", "options"]
 
 SHOWN_ROWS = 24
-SETTINGS = ("file", "problem", "columns", "rows", "exact", "format", "quiet", "command")
+SETTINGS = ("file", "problem", "columns", "skip", "comment", "rows", "exact", "format", "quiet", "command")
 
 
 def add_options(parser: argparse.ArgumentParser, *, with_families: bool) -> None:
@@ -23,6 +25,8 @@ def add_options(parser: argparse.ArgumentParser, *, with_families: bool) -> None
     parser.add_argument("file", metavar="FILE", help="CSV, NPY, NPZ or HDF5; - reads CSV from standard input")
     parser.add_argument("--problem", default="pendulum", metavar="NAME", help="family of problems (default pendulum)")
     parser.add_argument("--columns", metavar="A,B,C", help="the file's names of the time and the state")
+    parser.add_argument("--skip", metavar="N", help="lines of a text before its table begins")
+    parser.add_argument("--comment", metavar="C", help="what begins a comment, besides #, %% and !")
     parser.add_argument("--rows", metavar="N", help=f"rows shown at most (default {SHOWN_ROWS}; CSV shows all)")
     parser.add_argument("--exact", action="store_true", help="take parameters and times as written, not as doubles")
     parser.add_argument("--format", type=one_of("format", FORMATS), default="text", help=", ".join(FORMATS))
@@ -50,13 +54,24 @@ def options(known: argparse.Namespace) -> dict[str, Any]:
         "inputs": {name: text for name, text in vars(known).items() if name not in SETTINGS and text is not None},
         "exact": known.exact,
         "columns": None if known.columns is None else asked_columns(known.columns),
-        "rows": SHOWN_ROWS if known.rows is None else _count(known.rows),
+        "passed": Passed(
+            0 if known.skip is None else _count(known.skip, "--skip"),
+            "" if known.comment is None else _mark(known.comment),
+        ),
+        "rows": SHOWN_ROWS if known.rows is None else _count(known.rows, "--rows"),
         "form": known.format,
     }
 
 
-def _count(text: str) -> int:
+def _count(text: str, option: str) -> int:
     count = int(text) if text.isascii() and text.isdigit() and len(text) < 10 else 0
     if not count:
-        raise ValueError(f"--rows is '{short(text)}'; a positive integer is accepted.")
+        raise ValueError(f"{option} is '{short(text)}'; a positive integer is accepted.")
     return count
+
+
+def _mark(text: str) -> str:
+    mark = text.strip()
+    if not mark or re.match(r"[+-]?[.,]?\d", mark):
+        raise ValueError(f"--comment is '{short(text)}'; what begins a comment is accepted, such as ';' or '//'.")
+    return mark

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from typing import TYPE_CHECKING
 
-from compare.submission.columns import DATASETS, USUAL
+from compare.submission.columns import DATASETS, USUAL, option
 from reference.names import SHOWN, short
 
 if TYPE_CHECKING:
@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
     from compare.submission.columns import Columns
 
-__all__ = ["flat", "packed", "rows_first"]
+__all__ = ["flat", "packed", "rows_first", "sized"]
 
 
 def packed(columns: Columns, shapes: Mapping[str, tuple[int, ...]], kind: str) -> tuple[str, str] | None:
@@ -46,7 +46,7 @@ def packed(columns: Columns, shapes: Mapping[str, tuple[int, ...]], kind: str) -
         raise ValueError(
             f"there are {len(tables)} {kind} that may hold {', '.join(state)}: "
             f"{', '.join(map(short, tables[:SHOWN]))}; one called {USUAL} is accepted, or one for each "
-            f"of the state's numbers, or '--columns {short(known[time])},{short(tables[0])}' would say which it is."
+            f"of the state's numbers, or {option([known[time], tables[0]])} would say which it is."
         )
     return (known[time], tables[0]) if tables else None
 
@@ -54,6 +54,11 @@ def packed(columns: Columns, shapes: Mapping[str, tuple[int, ...]], kind: str) -
 def flat(shape: tuple[int, ...]) -> tuple[int, ...]:
     """The shape of a column: of a matrix of one row or one column too, as MATLAB has no other."""
     return (max(shape),) if len(shape) == 2 and 1 in shape else shape
+
+
+def sized(count: int) -> str:
+    """A number of bytes, in words."""
+    return f"{short(str(count))} byte{'' if count == 1 else 's'}"
 
 
 def rows_first(columns: Columns, name: str, shape: tuple[int, ...], times: tuple[int, ...]) -> bool:

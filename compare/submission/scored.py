@@ -9,7 +9,6 @@ import numpy as np
 
 from compare.submission.chunk import Row
 from compare.submission.judge import CHUNK, Judge
-from compare.submission.record import Running
 from compare.submission.written import of_value
 from reference.exact import NO_SEQUENCES
 
@@ -42,7 +41,7 @@ def score(problem: Problem, t: Any, y: Any) -> Score:
     if len(times) != len(states):
         raise ValueError(f"t has {len(times)} times and y {len(states)} rows; equally many are accepted.")
     judge.expect(number.digits for state in states for number in state)
-    running = Running(problem.state_names, keep=None)
+    running = judge.running(None)
     rows = [
         Row(when, state, f"row {number}")
         for number, (when, state) in enumerate(zip(times, states, strict=True), start=1)

@@ -50,6 +50,7 @@ def rendered(score: Score, form: str) -> str:
     columns = [Column("row"), Column("t"), *(Column(name, left=True) for name in score.names)]
     columns += [
         Column("digits"),
+        Column("on scale"),
         Column("error"),
         *(Column(name.removesuffix("_error"), "error of") for name in ERRORS),
     ]
@@ -78,7 +79,15 @@ def _split(columns: list[Column], rows: tuple[tuple[str, ...], ...], at: int) ->
 def _cells(point: Point) -> tuple[str, ...]:
     values = map(marked, point.values, point.first_wrong)
     errors = (_size(getattr(point, name)) for name in ERRORS)
-    return str(point.number), point.t, *values, f"{point.digits:.1f}", _size(point.error), *errors
+    return (
+        str(point.number),
+        point.t,
+        *values,
+        f"{point.digits:.1f}",
+        f"{point.scaled_digits:.1f}",
+        _size(point.error),
+        *errors,
+    )
 
 
 def _size(error: float) -> str:
@@ -90,6 +99,7 @@ def summary_line(score: Score) -> str:
     parts = [
         f"{score.rows} row{'s' if score.rows > 1 else ''}",
         f"worst {score.worst_digits:.1f} correct digits (row {score.worst_row})",
+        f"{score.worst_scaled_digits:.1f} on scale (row {score.worst_scaled_row})",
         f"max error {score.max_error:.1e}",
     ]
     for what, value, units in (
@@ -110,6 +120,9 @@ def json_text(score: Score) -> str:
         "rows": score.rows,
         "worst_digits": score.worst_digits,
         "worst_row": score.worst_row,
+        "worst_scaled_digits": score.worst_scaled_digits,
+        "worst_scaled_row": score.worst_scaled_row,
+        "scales": dict(zip(names, score.scales, strict=True)),
         "digits_held": score.digits_held,
         "max_error": _number(score.max_error),
         "max_errors": {name: _number(value) for name, value in zip(names, score.max_errors, strict=True)},
@@ -130,6 +143,7 @@ def _plain(point: Point, names: tuple[str, ...]) -> dict[str, Any]:
         "t": point.t,
         **dict(zip(names, point.values, strict=True)),
         "digits": point.digits,
+        "scaled_digits": point.scaled_digits,
         "error": _number(point.error),
         "errors": {name: _number(value) for name, value in zip(names, point.errors, strict=True)},
         "first_wrong_digit": dict(zip(names, point.first_wrong, strict=True)),

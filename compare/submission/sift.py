@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from compare.submission.scales import SLACK
 from compare.submission.slips import FIRST_ROWS
 
 if TYPE_CHECKING:
@@ -106,6 +107,7 @@ class Sift:
             if not math.isnan(most):  # a maximum that is not a number stays
                 may |= ~(measure <= most)
         numbers = np.arange(len(chunk)) + self._judge.rows + 1
+        may |= ~(bounds.truths <= np.array(bar.truths)).all(axis=1)  # a scale may change
         may |= lost & (numbers < bar.first_lost)  # the first of them is named
         may |= self._judge.turns.unsure(bounds.about, bounds.errors - np.abs(bounds.about))
         fewest, first = bar.worst
@@ -130,7 +132,7 @@ class Sift:
 def _extremes(bounds: Bounds) -> set[int]:
     """The places at which a bound is largest: the rows behind them settle most of the others."""
     measures = (bounds.errors.max(axis=1), *bounds.found[:3], -bounds.digits.min(axis=1))
-    return {int(np.argmax(measure)) for measure in measures}
+    return {int(np.argmax(measure)) for measure in (*measures, *bounds.truths.T)}
 
 
 def _hold(point: Point, bounds: Bounds, place: int) -> None:
@@ -142,6 +144,7 @@ def _hold(point: Point, bounds: Bounds, place: int) -> None:
     phase, amplitude, energy, lost = (bound[place] for bound in bounds.found)
     pairs = [
         *zip(map(abs, point.errors), bounds.errors[place], strict=True),
+        *zip((10.0**truth * (1 - SLACK) for truth in point.truths), bounds.truths[place], strict=True),
         (abs(point.phase_error), phase),
         (abs(point.amplitude_error), amplitude),
         (abs(point.energy_error), energy),

@@ -2,44 +2,62 @@
 
 from __future__ import annotations
 
-import sys
+import re
+import shlex
+from collections import deque
 from itertools import chain, islice
 from typing import TYPE_CHECKING
 
 from compare.submission.block import Blocks
 from compare.submission.chunk import Chunk, Row
 from compare.submission.dialect import Dialect, is_numeric
+from compare.submission.ending import Ending
+from compare.submission.exact_rows import Exact
+from compare.submission.head import is_rule, read_head, trimmed
+from compare.submission.json_rows import is_json, json_table
 from compare.submission.lines import STANDARD_INPUT, Lines, opened, refuse_undecodable
-from compare.submission.written import ROUND_TRIP_DIGITS, Written, of_value
+from compare.submission.written import ROUND_TRIP_DIGITS
+from reference.names import short
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
+    from collections.abc import Iterable, Iterator, Sequence
     from pathlib import Path
 
     from compare.submission.columns import Columns
+    from compare.submission.head import Head
+    from compare.submission.json_rows import JsonTable
+    from compare.submission.lines import Line, Passed
 
 __all__ = ["STANDARD_INPUT", "TextRows"]
 
-Line = tuple[int, str]
-"""A line's number and text."""
+TAIL = 64
+"""Rows at the end among which the last is looked at."""
+UNUSUAL = frozenset(';,|"+─┌└├╞│(\t')
+"""How a line begins that may hold nothing."""
+MARK = re.compile(r"[^\w\s.,;|+\-\"']+")
+"""What may begin a comment, and no field."""
+FOOTER = re.compile(r"\((\d+) rows?\)")
+"""What a database's client says under a table."""
 
 
 class TextRows:
     """The rows of a text file, a chunk at a time.
 
-    Columns are separated by semicolons, tabs, commas or blanks, whichever of these the first row has first; where it is
-    not commas, these may be decimal marks.  A header names the columns, and without one they are in order.  Lines that
-    are empty or begin with #, % or ! are passed over, but a header may begin so.
+    Columns are separated by semicolons, tabs, bars, commas or blanks, whichever of these the first row has first; where
+    it is not commas, these may be decimal marks.  A header names the columns, and without one they are in order.  Lines
+    that are empty or begin with #, % or ! are passed over, but a header may begin so.  JSON is read too.
 
     Attributes:
         times: "as written"; or "binary64" where the states have no more digits than doubles have: then a time is the
             double that it spells, as it was in the program that wrote it.
+        notes: sentences on what did not count, or may be amiss.
     """
 
-    def __init__(self, columns: Columns, *, as_written: bool) -> None:
-        self._columns = columns
+    def __init__(self, columns: Columns, passed: Passed, *, as_written: bool) -> None:
+        self._columns, self._passed = columns, passed
         self._as_written = as_written
         self.times = "as written"
+        self.notes: list[str] = []
 
     def chunks(self, path: Path, size: int) -> Iterator[Chunk]:
         """Read the file.
@@ -48,20 +66,36 @@ class TextRows:
             ValueError: it is empty or no text, a column is missing, a row is ragged, or a word is no finite number.
         """
         with opened(path) as stream:
-            lines = Lines(stream)
-            first = next(lines, None)
-            table = None if first is None else Table(self._columns, first, lines.comments)
-            rest = lines if first is None or (table is not None and table.has_header) else chain([first], lines)
+            lines = Lines(stream, self._passed)
+            table, rest = self._table(lines)
             begun = False
+            tail: deque[Line] = deque(maxlen=TAIL)
             while table is not None and (batch := list(islice(rest, size))):
                 if not begun:
                     self._decide(table, batch)
                 begun = True
+                tail.extend(batch)
                 yield table.chunk(batch, doubles=self.times == "binary64")
             if not begun:
                 raise ValueError(f"{_shown(path)} has no rows; a row for each time is accepted.")
+            if table is not None:
+                self.notes += table.notes(tail)
 
-    def _decide(self, table: Table, batch: Sequence[Line]) -> None:
+    def _table(self, lines: Lines) -> tuple[Table | JsonTable | None, Iterator[Line]]:
+        """The table, and its rows."""
+        first = next(lines, None)
+        if first is None:
+            return None, iter(())
+        if is_json(first[1]):
+            return json_table(self._columns, first, lines)
+        head = read_head(chain([first], lines), lines.comment, self._columns)
+        if head is None:
+            return None, iter(())
+        self.notes += head.notes
+        table = Table(self._columns, head, lines.comments)
+        return table, table.rows(chain(head.taken, lines))
+
+    def _decide(self, table: Table | JsonTable, batch: Sequence[Line]) -> None:
         """Decide how times are read, by the digits of the first states."""
         most = max(number.digits for line in batch for number in table.row(line).state)
         if not self._as_written and most <= ROUND_TRIP_DIGITS:
@@ -69,40 +103,46 @@ class TextRows:
 
 
 class Table:
-    """A table that begins with the line ``first``, which may be a header; or else a comment before it may.
+    """A table that begins with this head; where it has no header, a comment before it may be one.
 
     Raises:
         ValueError: a column is missing, or there are others than are wanted where nothing names them.
     """
 
-    def __init__(self, columns: Columns, first: Line, comments: Sequence[str]) -> None:
-        self._columns = columns
-        number, line = first
-        self._dialect = Dialect(line)
-        words = self._dialect.split(line)
+    def __init__(self, columns: Columns, head: Head, comments: Sequence[str]) -> None:
+        self._columns, self._dialect, self._header = columns, head.dialect, head.header
+        words = head.names if head.header else trimmed(head.dialect.split(head.first))
         self._width = len(words)
-        self.has_header = not all(map(is_numeric, words))
-        self._places = self._named(words, number) if self.has_header else self._unnamed(line, comments)
+        self._places = columns.among(words) if head.header else self._unnamed(head, comments)
+        self._last = self._places.index(max(self._places)) if max(self._places) == self._width - 1 else None
         self._blocks: Blocks | None = None
 
-    def _named(self, words: Sequence[str], number: int) -> list[int]:
-        """Where the columns are that a header names; its other names may be of any encoding."""
-        try:
-            places = self._columns.among(words)
-        except ValueError:
-            refuse_undecodable("".join(words), number)
-            raise
-        refuse_undecodable("".join(words[place] for place in places), number)
-        return places
-
-    def _unnamed(self, line: str, comments: Sequence[str]) -> list[int]:
+    def _unnamed(self, head: Head, comments: Sequence[str]) -> list[int]:
         """Where the columns are in a table that begins with numbers: a comment before it may be its header."""
         for comment in reversed(comments):
             names = Dialect(comment).split(comment)
-            if len(names) == self._width and set(self._columns.names) <= set(names):
+            if len(names) == self._width and self._columns.named_by(names) and not all(map(is_numeric, names)):
                 return self._columns.among(names)
-        hint = self._dialect.hint(line, self._width, len(self._columns.wanted))
+        hint = self._dialect.hint(head.first, self._width, len(self._columns.wanted))
         return self._columns.without_header(self._width, hint)
+
+    def rows(self, lines: Iterable[Line]) -> Iterator[Line]:
+        """The lines that hold rows: not those that are drawn or have empty fields alone, nor a client's last word.
+
+        Raises:
+            ValueError: the client counted other rows.
+        """
+        count = 0
+        for line in lines:
+            if line[1][0] in UNUSUAL:
+                text = line[1]
+                footer = FOOTER.fullmatch(text)
+                if footer and int(footer[1]) != count:
+                    raise ValueError(f"line {line[0]} is '{text}', after {count} rows; all of them are accepted.")
+                if footer or not any(self._dialect.split(text)) or is_rule(text):
+                    continue
+            count += 1
+            yield line
 
     def row(self, line: Line) -> Row:
         """The numbers of one line, exactly.
@@ -111,12 +151,11 @@ class Table:
             ValueError: it has not as many fields as the first, or a word is no finite number.
         """
         number, text = line
-        words = self._dialect.split(text)
+        words = trimmed(self._dialect.split(text, self._width), self._width)
         if len(words) != self._width:
-            hint = self._dialect.hint(text, len(words), self._width)
             raise ValueError(
                 f"line {number} has {len(words)} fields; {self._width} are accepted, as in the first line of the table"
-                f"{hint}."
+                f"{self._hint(text, words)}."
             )
         refuse_undecodable("".join(words[place] for place in self._places), number)
         at = f"line {number}"
@@ -125,6 +164,22 @@ class Table:
             for name, place in zip(self._columns.wanted, self._places, strict=True)
         )
         return Row(t, tuple(state), at)
+
+    def _hint(self, text: str, words: Sequence[str]) -> str:
+        """What a line with other fields than the first may be, and what would read it."""
+        mark = MARK.match(text)
+        if mark:
+            return f"; if it is a comment, --comment {shlex.quote(short(mark[0]))} would pass over it"
+        found = self._dialect.hint(text, len(words), self._width)
+        if found:
+            return found
+        if self._header and len(words) == self._width + 1:
+            numbers = ",".join(str(place + 2) for place in self._places)
+            return (
+                f"; where the first field of a row is its number or name, --skip {self._header} --columns {numbers} "
+                "would read them"
+            )
+        return ""
 
     def chunk(self, batch: Sequence[Line], *, doubles: bool) -> Chunk:
         """Some lines; their times are ``doubles``, or as they are written."""
@@ -139,24 +194,13 @@ class Table:
         rows = [exact(place) for place in range(len(batch))]
         return Chunk(len(rows), rows.__getitem__)
 
-
-class Exact:
-    """The exact rows of some lines, each read when it is asked for; their times are ``doubles``, or as written."""
-
-    def __init__(self, table: Table, batch: Sequence[Line], *, doubles: bool) -> None:
-        self._table, self._batch, self._doubles = table, batch, doubles
-
-    def __call__(self, place: int) -> Row:
-        row = self._table.row(self._batch[place])
-        return row._replace(t=_as_double(row.t)) if self._doubles else row
+    def notes(self, tail: Iterable[Line]) -> list[str]:
+        """What is to be known of the table after its last rows."""
+        found = ["Numbers that run together at a minus were taken apart."] if self._dialect.together else []
+        if self._last is not None:
+            found += Ending([self.row(line) for line in tail], self._columns.wanted, self._last).notes()
+        return found
 
 
 def _shown(path: Path) -> str:
     return "standard input" if str(path) == STANDARD_INPUT else f"'{path}'"
-
-
-def _as_double(t: Written) -> Written:
-    """The double that a time of at most 17 digits spells."""
-    if t.digits > ROUND_TRIP_DIGITS or abs(t.value) > sys.float_info.max:
-        return t
-    return of_value(float(t.value))._replace(text=t.text)

@@ -14,7 +14,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from reference.exact import MAX_DIGITS, exact
+from compare.submission.spellings import hexadecimal, spelled
+from reference.exact import MAX_DIGITS, as_number, exact
 from reference.names import short
 
 __all__ = ["LOG10_2", "ROUND_TRIP_DIGITS", "Written", "of_decimal", "of_value"]
@@ -53,17 +54,31 @@ def of_decimal(text: str, name: str = "value") -> Written:
         ValueError: it spells none, or one that is not finite or beyond the limits of an input.
     """
     word = text.strip()
-    match = DECIMAL.fullmatch(word)
+    match = DECIMAL.fullmatch(word) or DECIMAL.fullmatch(spelled(word) or "")
     digits = match[2] + (match[3] or "") if match else ""
     if match is None or not digits:
-        raise ValueError(_refusal(word, name))
+        return _of_hexadecimal(word, name)
     exponent = match[4] or "0"
     last = int(exponent[:10]) - len(match[3] or "")  # ten characters tell an exponent that is beyond the limit
     if len(digits) > MAX_DIGITS or abs(last) > MAX_DIGITS:
         raise ValueError(f"{name} is '{short(word)}', beyond the limit of {MAX_DIGITS} digits.")
     mantissa = int(digits) * (-1 if match[1] == "-" else 1)
     value = Fraction(mantissa * 10**last) if last >= 0 else Fraction(mantissa, 10**-last)
-    return Written(value, word, len(digits.lstrip("0")), last)
+    return Written(value, match.string, len(digits.lstrip("0")), last)
+
+
+def _of_hexadecimal(word: str, name: str) -> Written:
+    """The binary number that hexadecimal digits spell, shown as the double or the fraction that it is.
+
+    Raises:
+        ValueError: they spell none.
+    """
+    found = hexadecimal(word) if len(word) <= MAX_DIGITS else None
+    if found is None:
+        raise ValueError(_refusal(word, name))
+    value, bits = exact(found[0], name), found[1]
+    text = as_number(value)
+    return Written(value, text if isinstance(text, str) else repr(text), max(bits * LOG10_2, BINARY64_DIGITS))
 
 
 def _refusal(word: str, name: str) -> str:

@@ -2,16 +2,38 @@
 
 from __future__ import annotations
 
+import math
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
 import h5py
+
+from reference.names import LENGTH, short
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
     from pathlib import Path
 
 __all__ = ["ForeignColumn", "foreign_columns"]
+
+FAULTS = (
+    OSError,  # bytes that cannot be read or unpacked
+    RuntimeError,  # what HDF5 itself says, of objects that it visits
+    ValueError,  # a name or a string in no encoding, or a shape that is none
+    KeyError,
+    TypeError,  # a type without an equivalent in NumPy
+    OverflowError,
+    MemoryError,  # a chunk or a string that is larger than memory
+    NotImplementedError,
+    SystemError,
+)
+"""What h5py raises of a file that is damaged."""
+MOST_BYTES = 1 << 26
+"""Bytes that a chunk of a dataset may take unpacked: HDF5 reads no part of one."""
+MOST_SAID = 180
+"""Characters of what HDF5 says that are repeated."""
+LONGEST_NUMBER = 16_384
+"""Bytes of a number: a string of the most digits that an input may have fits."""
 
 
 class ForeignColumn:
@@ -21,8 +43,8 @@ class ForeignColumn:
         is_text: whether it holds strings, which are read as ``str``.
     """
 
-    def __init__(self, data: Any, field: str | None = None) -> None:
-        self._data, self._field = data, field
+    def __init__(self, path: Path, name: str, data: Any, field: str | None = None) -> None:
+        self._path, self._name, self._data, self._field = path, name, data, field
         self._one_row = len(data.shape) == 2 and data.shape[0] == 1
         self._one_column = not self._one_row and len(data.shape) == 2 and data.shape[1] == 1
         self.is_text = field is None and h5py.check_string_dtype(data.dtype) is not None
@@ -30,11 +52,56 @@ class ForeignColumn:
         self.dtype: Any = data.dtype if field is None else data.dtype[field]
 
     def __getitem__(self, rows: slice) -> Any:
-        """Some consecutive rows."""
-        data = self._data.asstr() if self.is_text else self._data
-        if self._field is not None:
-            data = data.fields(self._field)
-        return data[0, rows] if self._one_row else data[rows, 0] if self._one_column else data[rows]
+        """Some consecutive rows.
+
+        Raises:
+            ValueError: they cannot be read, or are of numbers or chunks that are too large to be any.
+        """
+        self._refuse_wrong_size()
+        with told(self._path, self._name):
+            data = self._data.asstr() if self.is_text else self._data
+            if self._field is not None:
+                data = data.fields(self._field)
+            return data[0, rows] if self._one_row else data[rows, 0] if self._one_column else data[rows]
+
+    def _refuse_wrong_size(self) -> None:
+        with told(self._path, self._name):
+            item, held = self._data.id.get_type().get_size(), self._data.id.get_storage_size()
+            chunks, declared = self._data.chunks, item * self._data.size
+        where = f"the dataset {short(self._name)} of '{self._path}'"
+        written = {0, declared}  # what was never written takes nothing
+        if chunks is None and held not in written and not self._data.dtype.hasobject:
+            raise ValueError(
+                f"{where} declares {short(str(declared))} bytes of numbers and holds {short(str(held))}; as many as "
+                "are declared are accepted."
+            )
+        size = item * math.prod(chunks or ())
+        if item > LONGEST_NUMBER or size > MOST_BYTES:
+            raise ValueError(
+                f"{where} has numbers of {item} bytes in chunks of {short(str(size))}; {LONGEST_NUMBER} and "
+                f"{MOST_BYTES} are accepted."
+            )
+
+
+@contextmanager
+def told(path: Path, name: str = "") -> Iterator[None]:
+    """What goes wrong in a file, in one sentence.
+
+    Raises:
+        ValueError: something does.
+    """
+    try:
+        yield
+    except FAULTS as error:
+        said = " ".join(str(error).split()) or type(error).__name__
+        where = f" in its dataset {short(name)}" if name else ""
+        raise ValueError(f"'{path}' cannot be read: HDF5 says{where}: {_first(said)}.") from error
+
+
+def _first(said: str) -> str:
+    """The beginning of what a library says, which may be of any length and hold names of the file's."""
+    parts = [said[begin : begin + LENGTH] for begin in range(0, min(len(said), MOST_SAID), LENGTH)]
+    return "".join(map(short, parts)).rstrip(".") + ("..." if len(said) > MOST_SAID else "")
 
 
 @contextmanager
@@ -42,21 +109,27 @@ def foreign_columns(path: Path) -> Iterator[Mapping[str, ForeignColumn]]:
     """The datasets of a file by their paths, and the fields of compound datasets by their names too.
 
     Raises:
-        ValueError: it is no HDF5 file.
+        ValueError: it is no HDF5 file, or damaged.
     """
     try:
         file = h5py.File(path, "r")
-    except OSError as error:
+    except FAULTS as error:
         raise ValueError(f"'{path}' is no HDF5 file, or it is truncated.") from error
     with file:
         found: dict[str, ForeignColumn] = {}
 
-        def keep(path: str | bytes, item: Any) -> None:
-            if isinstance(item, h5py.Dataset) and item.shape is not None:
-                name = path if isinstance(path, str) else path.decode("utf-8", "backslashreplace")
-                found[name] = ForeignColumn(item)
-                for field in item.dtype.names or ():
-                    found[field] = ForeignColumn(item, field)
+        def keep(path_inside: str | bytes, item: Any) -> None:
+            if not isinstance(item, h5py.Dataset) or item.shape is None:
+                return
+            try:
+                dtype = item.dtype
+            except TypeError:  # NumPy has no such type, so that it is no column
+                return
+            name = path_inside if isinstance(path_inside, str) else path_inside.decode("utf-8", "backslashreplace")
+            found[name] = ForeignColumn(path, name, item)
+            for field in dtype.names or ():
+                found[field] = ForeignColumn(path, name, item, field)
 
-        file.visititems(keep)
+        with told(path):
+            file.visititems(keep)
         yield found

@@ -220,9 +220,9 @@ def test_an_error_that_grows_past_whole_turns_is_not_taken_for_a_wrapped_angle()
     assert not any("whole turns" in note for note in compare.score(problem, t, y).notes)
 
 
-def test_a_zero_of_the_truth_is_judged_by_whether_it_is_met():
+def test_a_zero_of_the_truth_has_a_first_wrong_digit_unless_it_is_met():
     assert compare.score(P, [0], [["1", "0.000"]]).points[0].first_wrong == (None, None)
-    assert compare.score(P, [0], [[1.0, 1e-17]]).worst_digits == 0
+    assert compare.score(P, [0], [[1.0, 1e-17]]).points[0].first_wrong == (None, 1)
 
 
 @pytest.mark.parametrize(
@@ -281,7 +281,7 @@ def test_of_many_rows_an_even_choice_is_kept_with_the_worst_and_the_last():
     y = P.state(t)
     y[200, 0] += 1e-3
     points = compare.score(P, t, y).points
-    running = Running(("theta", "omega"), keep=16)
+    running = Running(("theta", "omega"), keep=16, start=(0.0, 0.0))
     for begin in range(0, 300, 7):
         running.add(points[begin : begin + 7])
     found = running.score("p", ("rad", "rad s-1"), 16.0, "as written", ())

@@ -73,8 +73,8 @@ MISTAKES = [
     ({"t": Y, "y": Y}, "t has the shape (40, 2); one number for each time is accepted"),
     ({"time": T, "y": Y}, "there is no array t: the arrays are time, y, and t, theta, omega are needed"),
     ({"t": T, "a": Y, "b": Y}, "there are 2 arrays that may hold theta, omega: a, b; one called y is accepted, or one"),
-    ({"time": T, "y": Y}, "'--columns A,B,C' would say which they are (or A,B where B has all states)."),
-    ({"t": T, "a": Y, "b": Y}, "or '--columns t,a' would say which it is."),
+    ({"time": T, "y": Y}, "--columns A,B,C would say which they are (or A,B where B has all states)."),
+    ({"t": T, "a": Y, "b": Y}, "or --columns t,a would say which it is."),
     ({"t": T, "y": Y.astype(complex)}, "theta is an array of complex128; real numbers"),
 ]
 
@@ -97,7 +97,7 @@ def test_one_of_two_datasets_with_equal_names_is_not_guessed(tmp_path, capsys):
     assert main(["score", str(tmp_path / "two.h5"), "--theta0", "1"]) == 2
     assert capsys.readouterr().err == (
         "error: there are 2 datasets called t; one is accepted, and there are a/t, a/y, b/t, b/y; "
-        "'--columns a/t,a/y' would say which by their paths.\n"
+        "--columns a/t,a/y would say which by their paths.\n"
     )
 
 
@@ -144,10 +144,18 @@ def test_names_that_do_not_lead_to_states_are_one_sentence(name, columns, says, 
     assert says in err
 
 
+@pytest.mark.parametrize("suffix", ["npz", "h5"])
+def test_arrays_are_known_by_other_names_of_the_same(suffix, tmp_path, capsys):
+    path = tmp_path / f"a.{suffix}"
+    saved(path, {"time": T, "theta": Y[:, 0], "theta_dot": Y[:, 1], "note": T})
+    assert main(["score", str(path), "--theta0", "1", "--format", "json"]) == 0
+    assert json.loads(capsys.readouterr().out)["worst_row"] == 31
+
+
 def test_the_groups_of_equal_columns_are_named(tmp_path, capsys):
     saved(tmp_path / "a.h5", {f"{run}/{name}": T for run in ("b", "a") for name in ("t", "theta", "omega")})
     assert main(["score", str(tmp_path / "a.h5"), "--theta0", "1"]) == 2
-    assert "'--columns a/t,a/theta,a/omega' would say which by their paths." in capsys.readouterr().err
+    assert "--columns a/t,a/theta,a/omega would say which by their paths." in capsys.readouterr().err
 
 
 def test_an_array_that_lies_on_its_side_is_told(tmp_path, capsys):

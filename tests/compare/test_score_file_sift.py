@@ -15,7 +15,6 @@ from compare.submission.chunk import Chunk, Doubles, Row
 from compare.submission.columns import Columns
 from compare.submission.crew import Crew
 from compare.submission.judge import Judge
-from compare.submission.record import Running
 from compare.submission.show import json_text
 from compare.submission.sift import BoundError, Sift
 from compare.submission.written import of_decimal
@@ -36,7 +35,8 @@ def chunked(numbers: np.ndarray, size: int = 512) -> list[Chunk]:
 
 def judged(problem: Pendulum, parts: list[Chunk], *, sifted: bool, keep: int = 9) -> tuple[str, int]:
     """The summary, and how many rows were judged exactly."""
-    judge, running, count = Judge(problem), Running(("theta", "omega"), keep), 0
+    judge, count = Judge(problem), 0
+    running = judge.running(keep)
     crew = Crew(judge, others=0)
     points = Sift(judge, running, crew).points if sifted else crew.points
     for part in parts:

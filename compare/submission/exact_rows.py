@@ -1,0 +1,41 @@
+"""Exact rows of lines, each read when it is asked for."""
+
+from __future__ import annotations
+
+import sys
+from typing import TYPE_CHECKING, Protocol
+
+from compare.submission.written import ROUND_TRIP_DIGITS, Written, of_value
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from compare.submission.chunk import Row
+    from compare.submission.lines import Line
+
+__all__ = ["Exact"]
+
+
+class Reader(Protocol):
+    """What reads a line."""
+
+    def row(self, line: Line) -> Row:
+        """The numbers of one line, exactly."""
+
+
+class Exact:
+    """The exact rows of some lines, each read when it is asked for; their times are ``doubles``, or as written."""
+
+    def __init__(self, table: Reader, batch: Sequence[Line], *, doubles: bool) -> None:
+        self._table, self._batch, self._doubles = table, batch, doubles
+
+    def __call__(self, place: int) -> Row:
+        row = self._table.row(self._batch[place])
+        return row._replace(t=_as_double(row.t)) if self._doubles else row
+
+
+def _as_double(t: Written) -> Written:
+    """The double that a time of at most 17 digits spells."""
+    if t.last is None or t.digits > ROUND_TRIP_DIGITS or abs(t.value) > sys.float_info.max:
+        return t
+    return of_value(float(t.value))._replace(text=t.text)
