@@ -4,7 +4,7 @@ The tables go to stdout, whatever the other options are, so that they can be pip
 `--out DIR` writes the same tables into a folder as well, `--plots` the figures; what was written is said on stderr.
 `published figures --out DIR` writes the figures of two sources, drawn from the reference.
 Exit codes: 0, 1 where a claim fails or no solver could be scored, 2 for a mistake of the user's or a disk that cannot
-be written, 130 when interrupted.
+be written, 3 where no claim fails and one is not established, 130 when interrupted.
 """
 
 from __future__ import annotations
@@ -29,6 +29,9 @@ __all__ = ["main"]
 DEFAULT_FOLDER = "horologium-{problem}"
 WORTH_PROCESSES = 1 << 18
 """Steps in all from which starting a process a core takes less time than it saves."""
+
+EXIT_CODES = {True: 0, False: 1, None: 3}
+"""Of a check whose claims hold, of which one fails, or of which one is not established."""
 
 
 def main(words: Sequence[str] | None = None) -> int:
@@ -97,7 +100,7 @@ def _check(request: Request) -> int:
     with contextlib.redirect_stdout(sys.stderr):
         found = check(**{**request.options, "step": loaded(request.options["step"])})
     _print({"text": show.text, "json": show.json_text}[request.form](found))
-    return 0 if found.claims_hold else 1
+    return EXIT_CODES[found.claims_hold]
 
 
 def _errata(request: Request) -> int:
