@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import time
 from dataclasses import replace
 from numbers import Real
 from typing import TYPE_CHECKING, Any
@@ -17,12 +18,13 @@ from compare.judge.defects import Evidence, reversibility, symplecticity
 from compare.judge.energy import energy
 from compare.judge.engine import Lanes, Traced, chosen, repeatable
 from compare.judge.field import Exhausted, MisuseError
+from compare.judge.findings import Claims
 from compare.judge.forms import form_of
 from compare.judge.half_step import half_step
 from compare.judge.heading import UNTRIED, Heading, heading
 from compare.judge.order import ladder, measured
 from compare.judge.powers import lower, powers
-from compare.judge.record import Check, Claims
+from compare.judge.record import Check
 from compare.judge.scene import Frame, Scene, scale_of_time
 from reference import Pendulum
 from reference.problem import SeparableProblem
@@ -36,6 +38,8 @@ __all__ = ["check"]
 
 SECONDS = 60.0
 """Time after which a check is given up."""
+PURSUED = 0.25
+"""Part of it within which an order that has not settled is pursued to finer steps."""
 SPAN = 20
 """The order is measured over so many of the steps at which defects are: about one period."""
 CALLS = 100_000
@@ -91,9 +95,8 @@ def check(
     candidate = Candidate(step, form_of(step, form), _name(step))
     try:
         with deadline(seconds):
-            return _checked(
-                candidate, Claims(None if order is None else float(order), symplectic, reversible), Scene(tried)
-            )
+            claims = Claims(None if order is None else float(order), symplectic, reversible)
+            return _checked(candidate, claims, Scene(tried), time.monotonic() + seconds * PURSUED)
     except Exhausted as error:
         raise MisuseError(f"{candidate.name} {error} in one step; it does not come to an end.") from None
     except TimeOut:
@@ -110,11 +113,11 @@ def _name(step: Callable[..., Any]) -> str:
     return str(getattr(step, "__name__", type(step).__name__))
 
 
-def _checked(candidate: Candidate, claims: Claims, scene: Scene) -> Check:
+def _checked(candidate: Candidate, claims: Claims, scene: Scene, until: float) -> Check:
     h = scale_of_time(scene.problem)
     marcher, calls, timed, name = _marcher(candidate, scene, h)
     counts = ladder(_most_steps(marcher, calls))
-    still = measured(marcher, SPAN * h, counts)
+    still = measured(marcher, SPAN * h, counts, until)
     if not any(math.isfinite(cell.error) for cell in still.cells):
         raise MisuseError(
             f"{candidate.name} gives no finite states however short its steps are; finite ones are accepted."
@@ -127,7 +130,7 @@ def _checked(candidate: Candidate, claims: Claims, scene: Scene) -> Check:
     swinging = None
     if timed:
         frame = Scene(scene.problem, Frame(FRAME[0], FRAME[1] * scene.problem.rate()))
-        swinging = measured(_marcher(candidate, frame, h)[0], SPAN * h, counts)
+        swinging = measured(_marcher(candidate, frame, h)[0], SPAN * h, counts, until)
         series = lower(powers(candidate, scene, h), powers(candidate, frame, h))
     else:
         series = None if marcher.whole else powers(candidate, scene, h)

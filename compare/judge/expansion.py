@@ -128,7 +128,7 @@ class Expansion:
         Raises:
             NoSeriesError: it does.
         """
-        difference = self - other
+        difference = self._with(other, lambda a, b: a - b)
         if not isinstance(difference, Expansion):
             raise NoSeriesError(f"a series in the step is compared with a {type(other).__name__}.")
         terms = difference.terms()

@@ -97,7 +97,8 @@ class _Trial:
 
     def slope(self, h: float) -> np.ndarray:
         """(step(y, h) - y)/h."""
-        return (self.after(h) - self.y) / h
+        slopes: np.ndarray = (self.after(h) - self.y) / h
+        return slopes
 
     def along(self, shorter: np.ndarray, short: np.ndarray) -> bool:
         """Whether slopes with two steps tend to f."""
@@ -116,8 +117,8 @@ class _Trial:
 
 def _cause(slopes: np.ndarray, rates: np.ndarray, positions: int) -> str | None:
     """What a slope is in place of f, where it is known."""
-    signs = tuple(_multiple(slopes[:, part], rates[:, part]) for part in (slice(positions), slice(positions, None)))
-    return CAUSES.get(signs)
+    first, second = slice(positions), slice(positions, None)
+    return CAUSES.get((_multiple(slopes[:, first], rates[:, first]), _multiple(slopes[:, second], rates[:, second])))
 
 
 def _multiple(slopes: np.ndarray, rates: np.ndarray) -> int | None:
@@ -126,7 +127,7 @@ def _multiple(slopes: np.ndarray, rates: np.ndarray) -> int | None:
     return next((sign for sign in (1, 0, -1) if np.max(np.abs(slopes - sign * rates)) <= MATCH * size), None)
 
 
-CAUSES = {
+CAUSES: dict[tuple[int | None, int | None], str] = {
     (1, -1): "the momenta go against the force, as with the gradient of the potential in its place: "
     "force = -gradient is what a step is given",
     (0, 0): "it does not move",

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import time
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from itertools import pairwise
@@ -99,11 +100,12 @@ def ladder(most: int) -> tuple[int, ...]:
     return tuple(sorted(n for n in found if n <= most))
 
 
-def measured(marcher: Marcher, t_end: float, counts: Sequence[int]) -> Order:
+def measured(marcher: Marcher, t_end: float, counts: Sequence[int], until: float = math.inf) -> Order:
     """The order on one scene from its start to ``t_end`` in these numbers of steps.
 
     A whole integrator whose errors are small and do not fall at first is not asked for more: it chooses its own steps.
-    Where the slopes have not settled at the finest number of steps, and errors are far from rounding, there are more.
+    Where the slopes have not settled at the finest number of steps, and errors are far from rounding, there are more,
+    begun before ``until`` on the clock of time.monotonic.
     """
     if marcher.whole:
         first = _measured(marcher, t_end, counts[:FIRST_COUNTS])
@@ -111,7 +113,7 @@ def measured(marcher: Marcher, t_end: float, counts: Sequence[int]) -> Order:
             return replace(first, value=None, kind="own steps")
     found = _measured(marcher, t_end, counts)
     for factor in FURTHER:
-        if _settled(found):
+        if _settled(found) or time.monotonic() > until:
             break
         found = _pursued(marcher, t_end, found, factor * counts[-1])
     return found

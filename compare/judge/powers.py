@@ -37,7 +37,7 @@ ROUNDED, CLEAR = 1e-12, 1e-9
 """Differences up to the first are what rounding to doubles makes of coefficients; from the second they are the
 method's.  Of 78 methods none has more than 2e-13 in a term that it shares, or less than 1e-8 in the first that it does
 not."""
-NO_SERIES = (ArithmeticError, ValueError, TypeError)
+NO_SERIES = (ArithmeticError, ValueError)
 """What a function raises that has no series, as the square root of h."""
 REACH, TAIL, AGREEMENT = 4, 1e-14, 1e-12
 """The series is held against plain evaluation at h over the first, or where its last term is less than the second."""
@@ -89,7 +89,7 @@ class _Trial:
     """The series of a step from one state and time, and those of the solution."""
 
     def __init__(self, candidate: Candidate, scene: Scene, y: np.ndarray, t: float) -> None:
-        self._plain = lambda h: Lanes(candidate, scene).one(y, h, t)
+        self._plain, self._y, self._t = Lanes(candidate, scene), y, t
         self._numbers = Expansions(LEAST)
         state = np.array([self._numbers.constant(value) for value in y], dtype=object)
         field = candidate.field(scene)
@@ -103,9 +103,16 @@ class _Trial:
         self._solution = jet(MPMATH, lambda m, s: (*scene.rates(m, s[-1], s[:-1]), mp.mpf(1)), start, MOST)
 
     def term(self, k: int) -> list[Any]:
-        """The k-th term of each component."""
+        """The k-th term of each component.
+
+        Raises:
+            MisuseError: one is not real.
+        """
         self._numbers.known(k)
-        return [part.series.term(k) for part in self._parts]
+        found = [part.series.term(k) for part in self._parts]
+        if not all(isinstance(value, (int, mp.mpf)) for value in found):
+            raise MisuseError("a term of the step's series is not real.")
+        return found
 
     def gap(self, k: int) -> list[Any]:
         """The k-th terms less those of the solution."""
@@ -114,9 +121,9 @@ class _Trial:
     def agrees(self, h: float, length: int) -> bool:
         """Whether the sum of the series is the step, where it converges fast."""
         tails = [(k, max(abs(float(value)) for value in self.term(k))) for k in (length - 1, length)]
-        h = min(h / REACH, *((TAIL / size) ** (1 / k) for k, size in tails if size))
+        h = min([h / REACH, *((TAIL / size) ** (1 / k) for k, size in tails if size)])
         terms = [[float(value * mp.mpf(h) ** k) for value in self.term(k)] for k in range(length, -1, -1)]
-        plain = self._plain(h)
+        plain = self._plain.one(self._y, h, self._t)
         return bool(np.all(np.abs(plain - np.sum(terms, axis=0)) <= AGREEMENT * (1 + np.abs(plain))))
 
 
