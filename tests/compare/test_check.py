@@ -272,11 +272,18 @@ def test_errors_that_never_fall_have_order_zero_and_those_at_rounding_none():
 
 
 def test_an_order_that_is_still_rising_has_the_order_it_rises_to_in_its_interval():
-    """An error of h/(1 + 5 h): its slope is 1/(1 + 5 h)."""
-    found = fitted([Cell(n, 1 / n, 1 / (n + 5), 1e-16) for n in ladder(64)])
+    """An error of h exp(-16 h): its slope is 1 - 16 h."""
+    found = fitted([Cell(n, 1 / n, math.exp(-16 / n) / n, 1e-16) for n in ladder(64)])
     assert found.kind == "slope"
-    assert found.value < 0.95
-    assert found.interval[1] > 1
+    assert found.value < 0.75
+    assert found.interval[1] == pytest.approx(1, abs=0.01)
+
+
+def test_a_slope_that_begins_to_rise_is_not_said_to_be_flat():
+    """Of h exp(-40 h) the finest slopes are below a half, and on their way to one."""
+    found = fitted([Cell(n, 1 / n, math.exp(-40 / n) / n, 1e-16) for n in ladder(64)])
+    assert (found.kind, found.value < 0.5) == ("slope", True)
+    assert found.interval[1] == pytest.approx(1, abs=0.05)
 
 
 def test_a_slope_that_is_bending_where_rounding_ends_it_is_not_said_to_be_sharp():
