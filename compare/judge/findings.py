@@ -22,6 +22,9 @@ may differ by that from what they tend to."""
 WIDEST = 0.3
 """An order whose interval has a half-width beyond this is not established."""
 
+BUILT_IN = 0.05
+"""A constant slope that is advanced so wrongly, where the motion is not, tells that a part of it is built in."""
+
 Standing = Literal["holds", "fails", "open"]
 
 
@@ -129,7 +132,18 @@ class Findings:
     def consistent(self) -> bool:
         """Whether it goes along f, forwards, and advances a constant slope by h, as far as that was tried."""
         lost = self.form == "integrator" and self.still.kind == "flat"
-        return self.heading.consistent and self.heading.calls and not lost and self.advance in {None, 1}
+        return self.heading.consistent and self.heading.calls and not lost and self._advances
+
+    @property
+    def _advances(self) -> bool:
+        """Whether a constant slope is advanced by h, or that tells nothing of a step that has its motion built in.
+
+        As one that keeps the energy of a pendulum: on the motion itself it goes along f, to rounding by its series, or
+        at least far nearer than a constant slope says.
+        """
+        if self.advance is None or self.advance == 1 or self.order_by_series:
+            return True
+        return self.heading.consistent and abs(self.advance - 1) > BUILT_IN
 
     @property
     def order_holds(self) -> bool | None:

@@ -24,6 +24,8 @@ HOLD = [
     (oddities.splitting_of("sofroniou_spaletta10"), {"order": 10, "symplectic": True, "reversible": True}),
     (oddities.with_coefficients_of("butcher6"), {"order": 6}),
     (oddities.leapfrog_without_its_half_step, {"order": 1, "symplectic": True}),
+    (oddities.midpoint_that_keeps_the_energy_of_the_pendulum, {"order": 2}),
+    (oddities.the_same_on_doubles, {"order": 2}),
 ]
 
 
