@@ -4,7 +4,7 @@ The tables go to stdout, whatever the other options are, so that they can be pip
 `--out DIR` writes the same tables into a folder as well, `--plots` the figures; what was written is said on stderr.
 `published figures --out DIR` writes the figures of two sources, drawn from the reference.
 Exit codes: 0, 1 where a claim fails or no solver could be scored, 2 for a mistake of the user's or a disk that cannot
-be written, 130 when interrupted.
+be written, 3 where no claim fails and one is not established, 130 when interrupted.
 """
 
 from __future__ import annotations

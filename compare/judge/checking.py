@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import math
+import time
+from dataclasses import replace
 from numbers import Real
 from typing import TYPE_CHECKING, Any
 
@@ -16,10 +18,14 @@ from compare.judge.defects import Evidence, reversibility, symplecticity
 from compare.judge.energy import energy
 from compare.judge.engine import Lanes, Traced, chosen, repeatable
 from compare.judge.field import Exhausted, MisuseError
+from compare.judge.findings import Claims
 from compare.judge.forms import form_of
+from compare.judge.half_step import half_step
+from compare.judge.heading import UNTRIED, Heading, heading
 from compare.judge.limits import SECONDS
 from compare.judge.order import ladder, measured
-from compare.judge.record import Check, Claims
+from compare.judge.powers import lower, powers
+from compare.judge.record import Check
 from compare.judge.scene import Frame, Scene, scale_of_time
 from reference import Pendulum
 from reference.problem import SeparableProblem
@@ -32,6 +38,8 @@ if TYPE_CHECKING:
 
 __all__ = ["check"]
 
+PURSUED = 0.25
+"""Part of it within which an order that has not settled is pursued to finer steps."""
 SPAN = 20
 """The order is measured over so many of the steps at which defects are: about one period."""
 CALLS = 100_000
@@ -46,6 +54,8 @@ LANES_OF_A_LADDER = 7
 """Steps of all marches of a ladder, from two starts, over those of its longest."""
 TRIAL_TIMES = 9
 MOST_ORDER = 100
+ALMOST_TWO = 1.5
+"""An order below this is one, and a claim from it on is of two or more."""
 
 
 def check(
@@ -91,9 +101,8 @@ def check(
     candidate = Candidate(step, form_of(step, form), _name(step))
     try:
         with deadline(seconds):
-            return _checked(
-                candidate, Claims(None if order is None else float(order), symplectic, reversible), Scene(tried)
-            )
+            claims = Claims(None if order is None else float(order), symplectic, reversible)
+            return _checked(candidate, claims, Scene(tried), time.monotonic() + seconds * PURSUED)
     except Exhausted as error:
         raise MisuseError(f"{candidate.name} {error} in one step; it does not come to an end.") from None
     except TimeOut:
@@ -110,11 +119,11 @@ def _name(step: Callable[..., Any]) -> str:
     return str(getattr(step, "__name__", type(step).__name__))
 
 
-def _checked(candidate: Candidate, claims: Claims, scene: Scene) -> Check:
+def _checked(candidate: Candidate, claims: Claims, scene: Scene, until: float) -> Check:
     h = scale_of_time(scene.problem)
     marcher, calls, timed, name = _marcher(candidate, scene, h)
     counts = ladder(_most_steps(marcher, calls))
-    still = measured(marcher, SPAN * h, counts)
+    still = measured(marcher, SPAN * h, counts, until)
     if not any(math.isfinite(cell.error) for cell in still.cells):
         raise MisuseError(
             f"{candidate.name} gives no finite states however short its steps are; finite ones are accepted."
@@ -127,7 +136,10 @@ def _checked(candidate: Candidate, claims: Claims, scene: Scene) -> Check:
     swinging = None
     if timed:
         frame = Scene(scene.problem, Frame(FRAME[0], FRAME[1] * scene.problem.rate()))
-        swinging = measured(_marcher(candidate, frame, h)[0], SPAN * h, counts)
+        swinging = measured(_marcher(candidate, frame, h)[0], SPAN * h, counts, until)
+        series = lower(powers(candidate, scene, h), powers(candidate, frame, h))
+    else:
+        series = None if marcher.whole else powers(candidate, scene, h)
     iterating = iterates(candidate, marcher, h)
     kept = energy(marcher, h, _most_steps(marcher, calls))
     evidence = Evidence(
@@ -136,7 +148,7 @@ def _checked(candidate: Candidate, claims: Claims, scene: Scene) -> Check:
         bounded=kept.behaviour in {"rounding", "bounded"},
     )
     explicit = not (marcher.whole or iterating)
-    return Check(
+    found = Check(
         name=candidate.name,
         form=candidate.form.name,
         engine=name,
@@ -147,8 +159,25 @@ def _checked(candidate: Candidate, claims: Claims, scene: Scene) -> Check:
         symplecticity=symplecticity(marcher, h, evidence),
         reversibility=reversibility(marcher, h, evidence),
         energy=kept,
+        heading=_heading(candidate, marcher, h, calls),
+        powers=series,
         advance=advance_of_a_constant_slope(candidate, scene, h) if explicit else None,
     )
+    return replace(found, hint=_hint(found, marcher, SPAN * h))
+
+
+def _heading(candidate: Candidate, marcher: Marcher, h: float, calls: float) -> Heading:
+    """Of a step; of a whole integrator only whether it calls f is known."""
+    return replace(UNTRIED, calls=calls > 0) if marcher.whole else heading(candidate, marcher.scene, h)
+
+
+def _hint(found: Check, marcher: Marcher, t_end: float) -> str | None:
+    """What would make one of order one the method of order two that it claims to be."""
+    claim, order = found.claims.order, found.measured_order
+    if marcher.whole or not found.consistent or claim is None or order is None or not (order < ALMOST_TWO <= claim):
+        return None
+    place = half_step(marcher, t_end)
+    return None if place is None else f"of order 2 with {place}: half a step parts them"
 
 
 def _marcher(candidate: Candidate, scene: Scene, h: float) -> tuple[Marcher, float, bool, str]:
@@ -174,7 +203,7 @@ def _trial(candidate: Candidate, scene: Scene, h: float) -> tuple[float, bool]:
     calls = field.calls / TRIAL_TIMES
     candidate.states(candidate.field(scene, TRIAL_TIMES), 0.9 * scene.start, grid)
     repeatable(candidate, first, candidate.states(candidate.field(scene, TRIAL_TIMES), scene.start, grid))
-    return max(calls, 1.0), field.timed
+    return calls, field.timed
 
 
 def _most_steps(marcher: Marcher, calls: float) -> int:
@@ -183,4 +212,4 @@ def _most_steps(marcher: Marcher, calls: float) -> int:
         return MOST_STEPS
     on_arrays = isinstance(marcher, Steps) and not isinstance(marcher.engine, Lanes)
     allowed = CALLS_ON_ARRAYS if on_arrays else CALLS / LANES_OF_A_LADDER
-    return int(min(max(allowed / calls, LEAST_STEPS), MOST_STEPS))
+    return int(min(max(allowed / max(calls, 1.0), LEAST_STEPS), MOST_STEPS))

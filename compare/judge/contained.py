@@ -41,7 +41,7 @@ class ContainedError(ValueError):
 
 
 class Answer(NamedTuple):
-    """What a check says, and the exit code: 0, or 1 where a claim fails."""
+    """What a check says, and the exit code: 0, 1 where a claim fails, or 3 where one is not established."""
 
     text: str
     code: int

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from compare.judge.expansion import Expansion
 from reference.arithmetic import NUMPY, Heyoka
 from reference.compiler import hy
 
@@ -50,6 +51,9 @@ class Field:
                 "are accepted."
             )
         if y.dtype == object:
+            series = next((part.home for part in (*y, t) if isinstance(part, Expansion)), None)
+            if series is not None:
+                return np.array(self.scene.rates(series, t, tuple(y)), dtype=object)
             moment = hy.expression(float(t)) if isinstance(t, (int, float)) else t
             return np.array(self.scene.rates(SYMBOLS, moment, tuple(y)), dtype=object)
         rates = self.scene.rates(NUMPY, t, tuple(y))

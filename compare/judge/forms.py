@@ -21,9 +21,12 @@ NAMES = {
     "grid": "t ts t_eval times time grid t_grid tspan t_span tgrid points",
     "q": "q x theta position positions pos r",
     "p": "p v omega velocity velocities vel momentum momenta",
-    "force": "force f a acc accel acceleration accelerations grad field",
+    "force": "force forces f a acc accel acceleration accelerations grad gradient grad_v gradv grad_potential dv dvdq "
+    "field",
 }
 """What each argument is often called."""
+FIRST = "y0 y_0 u0 z0 x0 initial start"
+"""What the first state is called, which only a whole integrator knows."""
 
 
 @dataclass(frozen=True)
@@ -70,7 +73,8 @@ def form_of(function: Callable[..., Any], name: str | None = None) -> Form:
 
     Three arguments are ``step(f, y, h)``, or ``integrate(f, y0, t)`` where the third is called t, times or the like.
     Four are ``step(f, t, y, h)``, or ``step(q, p, force, h)`` where they are called so.  Arguments with a default are
-    left to the function.  Where every argument has a name that is known, their order is free.
+    left to the function, but for a step size or a time by its name that makes a step of the others.  Where every
+    argument has a name that is known, their order is free.
 
     Raises:
         TypeError: it cannot be called.
@@ -81,9 +85,10 @@ def form_of(function: Callable[..., Any], name: str | None = None) -> Form:
     known = {form.name: form for form in FORMS}
     if name is not None and name not in known:
         raise ValueError(unknown("form", name, known))
-    arguments = _arguments(function)
-    if arguments is None:
+    found = _arguments(function)
+    if found is None:
         return known[name or "step"]
+    arguments = _with_those_that_matter(*found)
     candidates = [known[name]] if name else [form for form in FORMS if len(form.roles) == len(arguments)]
     fits = [form for form in candidates if len(form.roles) == len(arguments)]
     if not fits:
@@ -95,27 +100,54 @@ def form_of(function: Callable[..., Any], name: str | None = None) -> Form:
     for form in sorted(fits, key=lambda form: not form.separable):
         if (order := _order(form, arguments)) is not None:
             return Form(form.name, order)
-    last_is_time = len(arguments) == 3 and arguments[2].casefold() in NAMES["grid"].split()
+    last_is_time = len(arguments) == 3 and _is(arguments[2], "grid")
     return known["integrator"] if last_is_time and name is None else fits[0]
 
 
-def _arguments(function: Callable[..., Any]) -> list[str] | None:
-    """The names of the positional arguments without default; None where they cannot be known."""
+def _arguments(function: Callable[..., Any]) -> tuple[list[str], list[str]] | None:
+    """The names of the positional arguments without and with a default; None where they cannot be known."""
     try:
         parameters = inspect.signature(function).parameters.values()
     except (ValueError, TypeError):
         return None
     positional = (inspect.Parameter.POSITIONAL_ONLY, inspect.Parameter.POSITIONAL_OR_KEYWORD)
     named = [one.name for one in parameters if one.kind in positional and one.default is inspect.Parameter.empty]
+    given = [one.name for one in parameters if one.kind in positional and one.default is not inspect.Parameter.empty]
     some = any(one.kind is inspect.Parameter.VAR_POSITIONAL for one in parameters)
-    return None if some and len(named) < 3 else named
+    return None if some and len(named) < 3 else (named, given)
+
+
+def _with_those_that_matter(named: list[str], given: list[str]) -> list[str]:
+    """The arguments without a default, and a step size or a time with one that follows and makes a step of them.
+
+    ``integrate(f, y0, t, h=0.1)`` stays a whole integrator, whose own step its last argument is.
+    """
+    steps = [form for form in FORMS if not form.whole]
+    for more in (named + given[:2], named + given[:1]):
+        extra = more[len(named) :]
+        if not all(_is(one, "h") or _is(one, "t") for one in extra) or _whole(named):
+            continue
+        if any(_order(form, more) for form in steps):
+            return more
+    sizeless = len(named) in {2, 3} and not any(_is(one, "h") or _is(one, "grid") for one in named)
+    return named + given[:1] if sizeless and given and _is(given[0], "h") else named
+
+
+def _whole(named: list[str]) -> bool:
+    """Whether these alone are a whole integrator: a grid of times at the end, or a state that is called the first."""
+    last = len(named) == 3 and _is(named[-1], "grid")
+    return last or (_order(FORMS[2], named) is not None and any(one.casefold() in FIRST.split() for one in named))
+
+
+def _is(argument: str, role: str) -> bool:
+    return argument.casefold() in NAMES[role].split()
 
 
 def _order(form: Form, arguments: list[str]) -> tuple[str, ...] | None:
     """The roles in the order of the arguments, if each argument has a name that fits one of them and no other."""
     found: list[str] = []
     for argument in arguments:
-        fits = [role for role in form.roles if role not in found and argument.casefold() in NAMES[role].split()]
+        fits = [role for role in form.roles if role not in found and _is(argument, role)]
         if not fits:
             return None
         found.append(fits[0])

@@ -17,6 +17,8 @@ __all__ = ["CLOSED", "serve"]
 CLOSED = 117
 """The exit code where the answer cannot be sent."""
 
+EXIT_CODES = {True: 0, False: 1, None: 3}
+"""Of a check whose claims hold, of which one fails, or of which one is not established."""
 FOLLOWING = 0.5
 """Seconds between looks whether the process that asked is still there."""
 
@@ -92,7 +94,7 @@ def _answer(line: _Line, request: dict[str, Any]) -> dict[str, Any]:
         name = options["step"].rpartition(":")[2]
         return {"left": f"{name} raised {type(error).__name__}"}
     text = {"text": show.text, "json": show.json_text}[request["form"]](found)
-    return {"text": text, "code": 0 if found.claims_hold else 1}
+    return {"text": text, "code": EXIT_CODES[found.claims_hold]}
 
 
 def _follow(parent: int) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import time
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from itertools import pairwise
@@ -17,6 +18,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from compare.judge.courses import Marcher
+    from compare.judge.scene import Scene
 
 __all__ = ["Cell", "Order", "ladder", "measured"]
 
@@ -24,8 +26,8 @@ SAMPLES = 4
 """Times of comparison, the same for every number of steps."""
 FLOOR_FACTOR = 30
 """An error within so many times the rounding noise is rounding."""
-FLAT = 0.5
-"""A slope below this is no order."""
+FLAT, RISING = 0.5, 0.2
+"""A slope below the first is no order, unless it is beyond the second and heading for more."""
 SMALL = 1e-3
 """Relative error below which errors that stop falling have met a tolerance, not a mistake."""
 RECOGNISABLE = 0.1
@@ -37,6 +39,13 @@ FINEST = 3
 """Slopes at the fine end that tell where the errors are going."""
 RESOLUTION, ROUGH = 0.01, 0.2
 """The least half-width of an interval, and of one above a plateau."""
+UNSETTLED, TREND = 0.1, 3
+"""An interval wider than the first has not settled, and goes on to where so many last slopes are heading that go one
+way."""
+FURTHER = 2, 4
+"""Numbers of steps, over the finest, with which an order that has not settled is pursued."""
+CLEAR_OF_NOISE = 1e3
+"""As long as errors are so many times the noise."""
 FIRST_COUNTS = 5
 
 
@@ -91,17 +100,30 @@ def ladder(most: int) -> tuple[int, ...]:
     return tuple(sorted(n for n in found if n <= most))
 
 
-def measured(marcher: Marcher, t_end: float, counts: Sequence[int]) -> Order:
+def measured(marcher: Marcher, t_end: float, counts: Sequence[int], until: float = math.inf) -> Order:
     """The order on one scene from its start to ``t_end`` in these numbers of steps.
 
     A whole integrator whose errors are small and do not fall at first is not asked for more: it chooses its own steps.
+    Where the slopes have not settled at the finest number of steps, and errors are far from rounding, there are more,
+    begun before ``until`` on the clock of time.monotonic.
     """
-    if not marcher.whole:
-        return _measured(marcher, t_end, counts)
-    first = _measured(marcher, t_end, counts[:FIRST_COUNTS])
-    if first.kind in {"flat", "floor"} and first.cells[-1].error <= RECOGNISABLE:
-        return replace(first, value=None, kind="own steps")
-    return _measured(marcher, t_end, counts)
+    if marcher.whole:
+        first = _measured(marcher, t_end, counts[:FIRST_COUNTS])
+        if first.kind in {"flat", "floor"} and first.cells[-1].error <= RECOGNISABLE:
+            return replace(first, value=None, kind="own steps")
+    found = _measured(marcher, t_end, counts)
+    for factor in FURTHER:
+        if _settled(found) or time.monotonic() > until:
+            break
+        found = _pursued(marcher, t_end, found, factor * counts[-1])
+    return found
+
+
+def _settled(found: Order) -> bool:
+    """Whether more steps would tell no more."""
+    last = found.cells[-1]
+    clear = last.error < math.inf and last.error > CLEAR_OF_NOISE * last.noise
+    return found.kind != "slope" or found.plateau is not None or found.half_width <= UNSETTLED or not clear
 
 
 def _measured(marcher: Marcher, t_end: float, counts: Sequence[int]) -> Order:
@@ -110,20 +132,36 @@ def _measured(marcher: Marcher, t_end: float, counts: Sequence[int]) -> Order:
     for n, error, other in zip(counts, here, there, strict=True):
         with np.errstate(over="ignore", invalid="ignore"):
             size, noise = (float(np.max(np.abs(value))) for value in (error, error - other))
-        slope = None
-        if cells and 0 < size < math.inf and 0 < cells[-1].error < math.inf:
-            slope = math.log(cells[-1].error / size) / math.log(n / cells[-1].n)
-        cells.append(Cell(n, t_end / n, size, noise, slope))
+        cells.append(_after(cells, n, t_end / n, size, noise))
     return fitted(cells)
 
 
-def _errors(marcher: Marcher, t_end: float, counts: Sequence[int]) -> tuple[list[np.ndarray], list[np.ndarray]]:
+def _after(cells: Sequence[Cell], n: int, h: float, size: float, noise: float) -> Cell:
+    slope = None
+    if cells and 0 < size < math.inf and 0 < cells[-1].error < math.inf:
+        slope = math.log(cells[-1].error / size) / math.log(n / cells[-1].n)
+    return Cell(n, h, size, noise, slope)
+
+
+def _pursued(marcher: Marcher, t_end: float, found: Order, n: int) -> Order:
+    """The same with a finer cell, from one start alone: its noise is that of the finest before, grown by the steps."""
+    last = found.cells[-1]
+    here, _ = _errors(marcher, t_end, [n], scenes=(marcher.scene,))
+    with np.errstate(over="ignore", invalid="ignore"):
+        size = float(np.max(np.abs(here[0])))
+    finer = _after(found.cells, n, t_end / n, size, last.noise * n / last.n)
+    return fitted([replace(cell, used=False) for cell in (*found.cells, finer)])
+
+
+def _errors(
+    marcher: Marcher, t_end: float, counts: Sequence[int], scenes: Sequence[Scene] = ()
+) -> tuple[list[np.ndarray], list[np.ndarray]]:
     """Relative errors [samples, state] for each number of steps, from the start and from one close by."""
-    scenes = marcher.scene, marcher.scene.neighbour()
+    scenes = scenes or (marcher.scene, marcher.scene.neighbour())
     h = np.array([t_end / n for n in counts])
     wanted = [[n * (j + 1) // SAMPLES for j in range(SAMPLES)] for n in counts]
     starts = np.stack([scene.start for scene in scenes for _ in counts], axis=1)
-    found = marcher.states(starts, np.concatenate([h, h]), [*wanted, *wanted])
+    found = marcher.states(starts, np.tile(h, len(scenes)), wanted * len(scenes))
     errors = []
     for i, states in enumerate(found):
         steps, size = wanted[i % len(counts)], Fraction(float(h[i % len(counts)]))
@@ -168,9 +206,21 @@ def _slope(a: Cell, b: Cell) -> float:
 def _flat(cells: Sequence[Cell], usable: Sequence[Cell], slopes: Sequence[float]) -> Order:
     """Errors that do not fall: the slope over the fine half, never below zero."""
     fine = slopes[len(slopes) // 2 :]
-    return Order(
-        tuple(cells), max(0.0, median(fine)), max(abs(s - median(fine)) for s in fine), "flat", usable[-1].error
-    )
+    value, half = max(0.0, median(fine)), max(abs(s - median(fine)) for s in fine)
+    for end in _heading(usable, slopes):
+        if min(end / FLAT, slopes[-1] / RISING) >= 1:
+            return Order(tuple(cells), slopes[-1], max(half, end - slopes[-1]), "slope")
+    return Order(tuple(cells), value, half, "flat", usable[-1].error)
+
+
+def _heading(chosen: Sequence[Cell], slopes: Sequence[float]) -> list[float]:
+    """Where the last slopes are heading as h goes to zero, in a line with h, if they go one way: one or none."""
+    last = slopes[-TREND:]
+    steps = [b - a for a, b in pairwise(last)]
+    if len(last) < TREND or not (all(step > 0 for step in steps) or all(step < 0 for step in steps)):
+        return []
+    places = [math.sqrt(a.h * b.h) for a, b in pairwise(chosen)][-TREND:]
+    return [last[-1] + (last[-1] - last[0]) * places[-1] / (places[0] - places[-1])]
 
 
 def _range(slopes: Sequence[float], *, by_the_end: bool) -> tuple[int, int]:
@@ -206,5 +256,7 @@ def _line(cells: Sequence[Cell], chosen: Sequence[Cell], slopes: Sequence[float]
         x, y = (np.log(column) for column in zip(*((cell.n, 1 / cell.error) for cell in chosen), strict=True))
         value, half = slope_with_interval(x, y)
     half = max(half, RESOLUTION if plateau is None else ROUGH, *(2 * abs(slope - value) for slope in slopes))
+    if half > UNSETTLED:
+        half = max(half, *(abs(end - value) for end in _heading(chosen, slopes)), 0.0)
     marked = tuple(replace(cell, used=cell in chosen) for cell in cells)
     return Order(marked, value, half, "slope", plateau)

@@ -3,149 +3,100 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
-if TYPE_CHECKING:
-    from compare.judge.defects import Defect
-    from compare.judge.energy import Energy
-    from compare.judge.order import Order
+from compare.judge.findings import Findings
 
-__all__ = ["Check", "Claims"]
+__all__ = ["Check"]
 
-ORDER_MARGIN = 0.2
-"""A measured order may be so much lower than the one claimed, or as much as its interval says."""
-WIDEST = 0.3
-"""An order whose interval has a half-width beyond this is not established."""
+MORE = 0.4
+"""An interval so far above a claim is more than claimed."""
 
 
 @dataclass(frozen=True)
-class Claims:
-    """What is said of an integrator; None where nothing is."""
-
-    order: float | None = None
-    symplectic: bool | None = None
-    reversible: bool | None = None
-
-
-@dataclass(frozen=True)
-class Check:
-    """What was found of an integrator.
-
-    Attributes:
-        name: what it is called.
-        form: "step", "timed", "separable" or "integrator".
-        engine: how it was run: "compiled", "on arrays", "lane by lane", or "whole".
-        problem: what it was tried on.
-        claims: what is said of it.
-        still: the order on that problem.
-        swinging: the order on the same seen from a swinging frame, where the time enters; None where it takes no time.
-        symplecticity: the defect |det d(step)/dy - 1|; None where the problem has no such structure.
-        reversibility: the distance from the start after going forward, turning round and going back.
-        energy: what the energy does over a long march.
-        advance: by how many h a constant slope is advanced, 1 if that is right to rounding; None where the step is not
-            explicit.
-    """
-
-    name: str
-    form: str
-    engine: str
-    problem: str
-    claims: Claims
-    still: Order
-    swinging: Order | None
-    symplecticity: Defect
-    reversibility: Defect
-    energy: Energy
-    advance: float | None = None
-
-    @property
-    def _order(self) -> Order:
-        """The one of the orders whose interval reaches lower."""
-        if self.swinging is None or self.swinging.interval is None:
-            return self.still
-        if self.still.interval is None or self.swinging.interval[0] < self.still.interval[0]:
-            return self.swinging
-        return self.still
-
-    @property
-    def measured_order(self) -> float | None:
-        """The order, the lower one where the time makes a difference; None where none shows."""
-        return self._order.value
-
-    @property
-    def order_interval(self) -> tuple[float, float] | None:
-        """The interval of the order."""
-        return self._order.interval
-
-    @property
-    def symplecticity_defect(self) -> float:
-        """|det d(step)/dy - 1|."""
-        return self.symplecticity.size
-
-    @property
-    def reversibility_defect(self) -> float:
-        """The distance from the start, relative to the motion's size."""
-        return self.reversibility.size
-
-    @property
-    def order_holds(self) -> bool | None:
-        """Whether the order is at least the one that is claimed; None without a claim."""
-        if self.claims.order is None:
-            return None
-        if not self.consistent or not self._established:
-            return False
-        if self._order.value is None:
-            return self._order.kind == "floor"
-        return self._order.value + max(ORDER_MARGIN, self._order.half_width) >= self.claims.order
-
-    @property
-    def consistent(self) -> bool:
-        """Whether a constant slope is advanced by h, as far as that was tried."""
-        return self.advance is None or self.advance == 1
-
-    @property
-    def _established(self) -> bool:
-        """Whether the interval of the order is narrow enough to say one."""
-        return self._order.half_width <= WIDEST
-
-    @property
-    def claims_hold(self) -> bool:
-        """Whether everything that is claimed holds."""
-        held = [self.order_holds is not False]
-        held += [self.symplecticity.none or not self.claims.symplectic]
-        held += [self.reversibility.none or not self.claims.reversible]
-        return all(held)
+class Check(Findings):
+    """The findings, in words."""
 
     @property
     def verdict(self) -> str:
         """Everything in one line."""
-        parts = [self._order_words(), *self._defect_words(), self._energy_words()]
+        return "; ".join([self._order_words(), *self._reasons(), *self._defect_words(), self._energy_words()])
+
+    def _reasons(self) -> list[str]:
+        """What explains a claim that fails, or would decide one that is not established."""
+        parts = [] if self.hint is None else [self.hint]
         if not self.consistent:
-            parts.insert(1, f"not consistent: a constant slope is advanced by {self.advance:.12g} h")
-        return "; ".join(parts)
+            parts.append(f"not consistent: {self._why_inconsistent}")
+        if self.heading.consistent and self.heading.backward == "wrong":
+            parts.append("wrong for h < 0: a step back does not go back along f as one forward goes along it")
+        elif self.heading.backward == "refused":
+            parts.append("takes no step with h < 0")
+        if self.order_standing == "open":
+            parts.append(self._what_would_decide)
+        return parts
+
+    @property
+    def _why_inconsistent(self) -> str:
+        if self.heading.cause is not None:
+            return self.heading.cause
+        if not self.heading.calls:
+            return "it never calls f, and moves the same way whatever f is"
+        if self.advance is not None and self.advance != 1:
+            return f"a constant slope is advanced by {self.advance:.12g} h"
+        return "a short step does not go along f"
+
+    @property
+    def _what_would_decide(self) -> str:
+        if self.short_of_digits:
+            return "coefficients of more digits would decide it"
+        if self.form == "integrator":
+            return "one of its steps as a function (f, y, h) would decide it"
+        return (
+            "plain arithmetic, on numbers that are not turned into floats, and without a branch on what changes with "
+            "h, would decide it by the power series in h"
+        )
 
     def _order_words(self) -> str:
-        order = self._order
+        if self.order.kind == "own steps":
+            return f"chooses its own steps, error {self.order.cells[-1].error:.0e}"
         claimed = "" if self.claims.order is None else f"claims order {self.claims.order:g}, "
+        return claimed + (self._other_order_words() or self._slope_words())
+
+    def _other_order_words(self) -> str | None:
+        """Of an order that no slope tells."""
+        order, exact = self.order, self.order_by_series
+        interval = "" if order.value is None else f"{order.value:.2f} ± {order.half_width:.2f}"
         if order.kind == "floor":
-            return f"{claimed}error at rounding with every step"
-        if order.kind == "own steps":
-            return f"chooses its own steps, error {order.cells[-1].error:.0e}"
-        if order.kind == "flat":
-            return f"{claimed}does not converge: the error stays at {order.cells[-1].error:.0e}"
+            return "error at rounding with every step"
+        if order.kind == "flat" and not exact:
+            return f"does not converge: the error stays at {order.cells[-1].error:.0e}"
+        if exact is not None and not self.by_slope:
+            slopes = f" (slopes {interval})" * bool(interval)
+            return f"order {exact} by its power series in h{slopes}{self._more_words}"
         if order.value is None:
-            return f"{claimed}order not to be seen: too few step sizes between coarse and rounding"
-        if not self._established:
-            return f"{claimed}order not established: {order.value:.2f} ± {order.half_width:.2f}"
-        words = f"{claimed}measured {order.value:.2f} ± {order.half_width:.2f}"
-        if self.claims.order is not None and order.value - order.half_width > self.claims.order:
-            words += ", more than claimed"
+            return "order not to be seen: too few step sizes between coarse and rounding"
+        if not self.established or self.order_standing == "open":
+            return f"order not established: {interval}"
+        return None
+
+    def _slope_words(self) -> str:
+        order = self.order
+        value, half = self.told
+        words = f"measured {value:.2f} ± {half:.2f}{self._more_words}"
         if self.swinging is not None and order is self.swinging and self.still.value is not None:
             words += f" where the time enters, {self.still.value:.2f} where it does not" * (self._times_matter)
         if order.plateau is not None:
             words += f" down to an error of {order.plateau:.0e}, where it stops falling"
             words += ", excused as a tolerance (it may be a fault)" * self.consistent
         return words
+
+    @property
+    def _more_words(self) -> str:
+        """Where the order is beyond the one that is claimed."""
+        order, exact, claim = self.order, self.order_by_series, self.claims.order
+        if claim is None:
+            return ""
+        lowest = exact if exact is not None else (order.value or 0) - order.half_width - MORE
+        return ", more than claimed" if lowest > claim else ""
 
     @property
     def _times_matter(self) -> bool:

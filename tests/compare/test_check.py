@@ -170,6 +170,7 @@ FORMS = {
     "a b c d": ("timed", "f t y h"),
     "q p force h": ("separable", "q p force h"),
     "x v acc dt": ("separable", "q p force h"),
+    "q p grad_v h": ("separable", "q p force h"),
 }
 
 
@@ -182,6 +183,28 @@ def taking(names: str, defaults: str = ""):
     given = [inspect.Parameter(name, kind, default=1) for name in defaults.split()]
     function.__signature__ = inspect.Signature(needed + given)
     return function
+
+
+WITH_DEFAULTS = {
+    ("f y", "h"): ("step", "f y h"),
+    ("f y", "dt tol"): ("step", "f y h"),
+    ("a b", "h"): ("step", "f y h"),
+    ("f t y", "h"): ("timed", "f t y h"),
+    ("a b c", "h"): ("timed", "f t y h"),
+    ("f y h", "t"): ("timed", "f y h t"),
+    ("f y", "h t"): ("timed", "f y h t"),
+    ("q p force", "h"): ("separable", "q p force h"),
+    ("f y h", "eps"): ("step", "f y h"),
+    ("f y0 t", "h"): ("integrator", "f y grid"),
+    ("f t y0", "h"): ("integrator", "f grid y"),
+}
+
+
+@pytest.mark.parametrize(("names", "defaults"), WITH_DEFAULTS)
+def test_a_step_size_or_a_time_may_have_a_default(names, defaults):
+    found = form_of(taking(names, defaults))
+    form, roles = WITH_DEFAULTS[names, defaults]
+    assert (found.name, found.roles) == (form, tuple(roles.split()))
 
 
 @pytest.mark.parametrize("names", FORMS)
@@ -246,6 +269,21 @@ def test_errors_that_never_fall_have_order_zero_and_those_at_rounding_none():
     assert (flat.kind, flat.value) == ("flat", 0.0)
     floor = fitted(cells([1e-15] * 12))
     assert (floor.kind, floor.value) == ("floor", None)
+
+
+def test_an_order_that_is_still_rising_has_the_order_it_rises_to_in_its_interval():
+    """An error of h exp(-16 h): its slope is 1 - 16 h."""
+    found = fitted([Cell(n, 1 / n, math.exp(-16 / n) / n, 1e-16) for n in ladder(64)])
+    assert found.kind == "slope"
+    assert found.value < 0.75
+    assert found.interval[1] == pytest.approx(1, abs=0.01)
+
+
+def test_a_slope_that_begins_to_rise_is_not_said_to_be_flat():
+    """Of h exp(-40 h) the finest slopes are below a half, and on their way to one."""
+    found = fitted([Cell(n, 1 / n, math.exp(-40 / n) / n, 1e-16) for n in ladder(64)])
+    assert (found.kind, found.value < 0.5) == ("slope", True)
+    assert found.interval[1] == pytest.approx(1, abs=0.05)
 
 
 def test_a_slope_that_is_bending_where_rounding_ends_it_is_not_said_to_be_sharp():

@@ -72,11 +72,11 @@ def test_a_plateau_that_is_excused_is_said_to_be():
 
 
 def test_an_order_with_a_wide_interval_is_not_established():
-    right = compare.check(slips.rk4, order=4)
+    right = replace(compare.check(slips.rk4, order=4), powers=None)
     wide = replace(right, still=replace(right.still, half_width=0.31))
     assert right.claims_hold
-    assert not wide.claims_hold
-    assert wide.verdict.startswith("claims order 4, order not established: 3.99 ± 0.31; ")
+    assert wide.claims_hold is wide.order_holds is None
+    assert wide.verdict.startswith("claims order 4, order not established: 3.99 ± 0.31; plain arithmetic, on numbers ")
     bends = [(8 / n) ** 4 + 1e-8 * (8 / n) for n in ladder(10**6)[:22]]
     cells = [Cell(n, 1 / n, error, 1e-16) for n, error in zip(ladder(10**6), bends, strict=False)]
     assert not replace(right, still=fitted(cells)).claims_hold
@@ -84,7 +84,7 @@ def test_an_order_with_a_wide_interval_is_not_established():
 
 def test_the_wider_of_two_orders_speaks():
     """A sharp order where the time does not enter does not hide one that is not established where it does."""
-    right = compare.check(slips.rk4_in_time, order=4)
+    right = replace(compare.check(slips.rk4_in_time, order=4), powers=None)
     assert right.claims_hold
     assert right.swinging is not None
     assert not replace(right, swinging=replace(right.swinging, value=4.1, half_width=0.9)).claims_hold
@@ -92,7 +92,7 @@ def test_the_wider_of_two_orders_speaks():
 
 @pytest.mark.parametrize(("value", "claim", "more"), [(3.6, 3.5, False), (3.99, 3, True), (3.7, 3, True)])
 def test_more_than_claimed_is_more_than_the_interval(value, claim, more):
-    right = compare.check(slips.rk4, order=claim)
+    right = replace(compare.check(slips.rk4, order=claim), powers=None)
     found = replace(right, still=replace(right.still, value=value, half_width=0.2))
     assert found.claims_hold
     assert ("more than claimed" in found.verdict) is more
