@@ -24,6 +24,7 @@ __all__ = [
     "pattern",
     "rounded",
     "shortest",
+    "unsigned_zeros",
     "with_subnormals",
 ]
 
@@ -125,6 +126,12 @@ def with_subnormals(values: np.ndarray) -> bool:
     bits = values.astype(values.dtype.newbyteorder("=")).view(f"u{values.dtype.itemsize}")
     fields, sizes = (bits >> places) & ((1 << width) - 1), bits & ((1 << places) - 1)
     return bool(np.any((fields == 0) & (sizes != 0)))
+
+
+def unsigned_zeros(values: Any) -> np.ndarray:
+    """Numbers, as an array, with +0.0 for every -0.0; those that are no float64 as they are."""
+    numbers = np.asarray(values)
+    return np.where(numbers.view(np.uint64) == SIGN, 0.0, numbers) if numbers.dtype == np.float64 else numbers
 
 
 def hexadecimal(value: float) -> str:

@@ -21,9 +21,8 @@ from reference.catalogue import PROFILES
 from reference.certify import ROUTES
 from reference.claims import attributes
 from reference.executors import opened, results
-from reference.names import unknown
+from reference.names import is_grid_file, unknown
 from reference.partial import PlaceError, partial, place_of
-from reference.plan import is_grid_file
 from reference.store import DatasetError
 from reference.store.checksums import CHECKSUMS, checksums, note_checksum, require_notable
 from reference.store.files import destination, replacing, sha256, temporaries

@@ -23,8 +23,8 @@ from typing import TYPE_CHECKING, Any
 
 from reference.catalogue import LAYOUTS
 from reference.exact import exact
-from reference.names import said, short, unknown
-from reference.plan import Group, Plan, is_grid_file
+from reference.names import is_grid_file, said, short, unknown
+from reference.plan import Group, Plan
 
 if TYPE_CHECKING:
     from fractions import Fraction

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-__all__ = ["printable", "said", "short", "unknown"]
+__all__ = ["is_grid_file", "printable", "said", "short", "unknown"]
 
 SHOWN = 12
 MANY_BITS = 1000
@@ -18,6 +18,13 @@ MANY_BITS = 1000
 SIMPLE = (Number, str, bytes)
 LENGTH = 60
 """Characters up to which a text that was given is repeated whole."""
+NAME_LENGTH = 255
+"""Characters of a grid file's name."""
+
+
+def is_grid_file(name: str) -> bool:
+    """Whether a profile is the name of a grid file: NAME.toml, of printable characters."""
+    return name.endswith(".toml") and name.isprintable() and len(name) <= NAME_LENGTH
 
 
 def printable(text: str) -> str:

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from reference.binary64 import hexadecimal, nearest
+from reference.binary64 import hexadecimal, nearest, unsigned_zeros
 from reference.exact import exact
 from reference.once import cached_property
 
@@ -23,17 +23,10 @@ if TYPE_CHECKING:
 
     from reference.problem import Problem, Quantity, Row
 
-__all__ = ["BLOCK_LENGTH", "Block", "Component", "Coordinate", "Group", "Layout", "Plan", "is_grid_file", "monotonic"]
+__all__ = ["BLOCK_LENGTH", "Block", "Component", "Coordinate", "Group", "Layout", "Plan", "monotonic"]
 
-NAME_LENGTH = 255
-"""Characters of a grid file's name."""
 BLOCK_LENGTH = 2048
 """Times in one block: the unit of work, of resuming and of storage, and so the bound on memory."""
-
-
-def is_grid_file(name: str) -> bool:
-    """Whether a profile is the name of a grid file: NAME.toml, of printable characters."""
-    return name.endswith(".toml") and name.isprintable() and len(name) <= NAME_LENGTH
 
 
 def monotonic(values: np.ndarray) -> bool:
@@ -222,7 +215,7 @@ class Group:
             raise ValueError(
                 f"{self.layout.path} needs the inputs {sorted(wanted)} and parameters {sorted(parameters)}."
             )
-        arrays = {name: _unsigned(np.asarray(self.inputs[name], dtype=wanted[name].dtype)) for name in wanted}
+        arrays = {name: unsigned_zeros(np.asarray(self.inputs[name], dtype=wanted[name].dtype)) for name in wanted}
         if self.layout.index is not None:
             arrays |= self._counted(self.layout.index, next(iter(arrays.values())).size)
         for name, array in arrays.items():
@@ -231,7 +224,7 @@ class Group:
             if array.size != arrays[self.layout.dimension_of(name)].size:
                 raise ValueError(f"{self.layout.path}/{name} and its axis differ in length.")
         object.__setattr__(self, "inputs", arrays)
-        object.__setattr__(self, "parameters", {name: value + 0.0 for name, value in self.parameters.items()})
+        object.__setattr__(self, "parameters", {name: float(unsigned_zeros(x)) for name, x in self.parameters.items()})
 
     def _counted(self, index: Coordinate, count: int) -> dict[str, np.ndarray]:
         """The index 0, 1, 2, ..., which may have been given as that and nothing else."""
@@ -264,11 +257,6 @@ class Group:
             yield start, values[start : start + BLOCK_LENGTH]
 
 
-def _unsigned(numbers: np.ndarray) -> np.ndarray:
-    """The numbers with +0.0 for every zero; labels as they are."""
-    return numbers + 0.0 if numbers.dtype.kind == "f" else numbers
-
-
 @dataclass(frozen=True)
 class Plan:
     """The groups of one dataset, and the name of the profile they make up.
@@ -284,10 +272,7 @@ class Plan:
         for group in self.groups:
             for axis in group.layout.axes:
                 if not monotonic(group.inputs[axis.name]):
-                    raise ValueError(
-                        f"{group.layout.path}/{axis.name} is an axis: its numbers must rise, or must fall, from each "
-                        "to the next."
-                    )
+                    raise ValueError(f"{group.layout.path}/{axis.name} is an axis: its numbers must rise or must fall.")
 
     def blocks(self) -> Iterator[Block]:
         """All the work, group by group."""

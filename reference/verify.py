@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from reference.binary64 import shortest
+from reference.binary64 import shortest, unsigned_zeros
 from reference.blocks import LIMBS, START_BITS, compare, decimals, prove
 from reference.certify import ROUTES, DisagreementError
 from reference.claims import decimal_fault, measurement_fault
@@ -151,15 +151,12 @@ def _compare(dataset: Dataset, block: Block, limbs: np.ndarray, proofs: dict[tup
             )
 
 
-NEGATIVE_ZERO = -(1 << 63)
-"""The bits of -0.0 as an int64."""
-
-
 def differs(stored: np.ndarray, proven: np.ndarray, *, signed_zeros: bool) -> np.ndarray:
     """Where float64 numbers differ: in any bit, but for the sign of zero where ``signed_zeros`` may be stored."""
-    here, there = (np.ascontiguousarray(numbers, dtype=np.float64).view(np.int64) for numbers in (stored, proven))
-    other: np.ndarray = here != there
-    return other & ((here | there) != NEGATIVE_ZERO) if signed_zeros else other
+    if signed_zeros:
+        stored, proven = unsigned_zeros(stored), unsigned_zeros(proven)
+    other: np.ndarray = stored.view(np.int64) != proven.view(np.int64)
+    return other
 
 
 def _spelled(limbs: np.ndarray) -> str:

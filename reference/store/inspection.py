@@ -17,8 +17,8 @@ from h5py import h5d, h5l, h5o, h5z
 
 from reference.catalogue import PROFILES
 from reference.claims import free_attributes, limbs_fault, measurement_fault
-from reference.names import short, unknown
-from reference.plan import is_grid_file, monotonic
+from reference.names import is_grid_file, short, unknown
+from reference.plan import monotonic
 from reference.store.attributes import TYPES, bounded, refusal, says, text_of, texts
 from reference.store.content import dimensions, parameters_of
 from reference.store.schema import (
