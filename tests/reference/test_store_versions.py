@@ -138,7 +138,7 @@ def test_every_axis_of_every_profile_rises_or_falls():
 
 
 def test_numbers_out_of_order_are_no_axis():
-    with pytest.raises(ValueError, match=r"^/polar/motion/tau is an axis: its numbers must rise or must fall, from"):
+    with pytest.raises(ValueError, match=r"^/polar/motion/tau is an axis: its numbers must rise or must fall\."):
         Plan("core", (Group(polar.MOTION, {}, {"z0": [0.5], "tau": [0.0, 1.0, 0.5]}),))
     with pytest.raises(ValueError, match=r"^/polar/motion/z0 is an axis"):
         Plan("core", (Group(polar.MOTION, {}, {"z0": [0.5, 0.5], "tau": [0.0]}),))
