@@ -25,7 +25,7 @@ def core() -> tuple[Group, ...]:
 
 
 def full() -> tuple[Group, ...]:
-    """The same groups with finer and larger grids, more than forty times the size."""
+    """The same groups with finer and larger grids, more than fifty times the size."""
     return tuple(group for family in FAMILIES for group in family.full())
 
 

@@ -182,7 +182,7 @@ def core() -> tuple[Group, ...]:
 def full() -> tuple[Group, ...]:
     """The same groups with finer and larger grids, as far as they are proven within hours on two cores."""
     sixty_fourths = np.arange(1, 202) / 64
-    amplitudes = np.unique(np.concatenate([LIBRATION_AMPLITUDES, np.arange(1, 101) / 32]))
+    amplitudes = np.unique(np.concatenate([LIBRATION_AMPLITUDES, sixty_fourths]))
     expanded_at = np.unique(np.concatenate([SERIES_AMPLITUDES, np.arange(1, 33) / 16]))
     halves = np.array([m * 2.0**j for j in range(31) for m in (1.0, 1.25, 1.5, 1.75)])
     return (
