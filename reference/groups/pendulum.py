@@ -196,7 +196,7 @@ def full() -> tuple[Group, ...]:
             ROTATION,
             EARTH,
             {
-                "initial_omega": np.concatenate([ROTATION_OMEGAS, np.arange(101, 129) / 16]),
+                "initial_omega": np.unique(np.concatenate([ROTATION_OMEGAS, np.arange(101, 129) / 16])),
                 "time": np.arange(5001) / 1000,
                 "event": np.arange(8 * EVENTS),
             },
