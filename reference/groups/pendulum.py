@@ -197,7 +197,7 @@ def full() -> tuple[Group, ...]:
             ROTATION,
             EARTH,
             {
-                "initial_omega": np.concatenate([ROTATION_OMEGAS, np.arange(101, 129) / 16]),
+                "initial_omega": np.unique(np.concatenate([ROTATION_OMEGAS, np.arange(101, 129) / 16])),
                 "time": np.arange(2501) / 500,
                 "event": np.arange(4 * EVENTS),
             },

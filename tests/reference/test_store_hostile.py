@@ -18,9 +18,9 @@ from h5py import h5a, h5g, h5p, h5s, h5t
 from reference.names import printable
 from reference.store import DatasetError
 
-MUCH = 96 << 20
+MUCH = 64 << 20
 """Bytes: more than a refusal may take."""
-ALLOWED = 48 << 20
+ALLOWED = 32 << 20
 CHILD = """
 import json, resource, sys
 import reference
@@ -116,8 +116,8 @@ def list_of_scales_that_is_none(file):
     return "'DIMENSION_LIST', which is not as HDF5"
 
 
-def two_million_users(file):
-    give(file["limb"], b"REFERENCE_LIST", *list_of_users(file["limb"], file["pendulum/libration/theta"], 2_000_000))
+def half_a_million_users(file):
+    give(file["limb"], b"REFERENCE_LIST", *list_of_users(file["limb"], file["pendulum/libration/theta"], 500_000))
     return "/limb has attributes of"
 
 
@@ -164,15 +164,15 @@ def huge_header(file):
 
 
 def many_attributes(file):
-    for i in range(3000):
+    for i in range(300):
         give(file["pendulum/libration/period"], b"a%d" % i, h5t.STD_I32LE, np.int32(i))
     return "/pendulum/libration/period has "
 
 
 def many_members(file):
-    for i in range(3000):
+    for i in range(300):
         h5g.create(file["pendulum"].id, b"g%d" % i)
-    return "/pendulum has 3001 members where the schema has at most"
+    return "/pendulum has 301 members where the schema has at most"
 
 
 def long_names(file):
@@ -193,7 +193,7 @@ FILES = (
     huge_class,
     huge_list_of_scales,
     list_of_scales_that_is_none,
-    two_million_users,
+    half_a_million_users,
     more_users_than_datasets,
     users_that_are_numbers,
     user_that_is_nowhere,
