@@ -45,9 +45,9 @@ DECIMAL_EXPONENT = 1 << 20
 """Numbers beyond 2^this, about 10^315653, or below its reciprocal have no decimals: they would take minutes."""
 MAX_BITS = 1 << 17
 """Working precision at which a proof is given up, with an error."""
-MAX_LIMBS = MAX_BITS // BINARY64_BITS
-MAX_DIGITS = int(MAX_BITS / math.log2(10))
-"""Limbs, and decimal digits, that this leaves room for."""
+MAX_LIMBS = 10_000
+MAX_DIGITS = 100_000
+"""Limbs, and decimal digits, that can be asked for: more than MAX_BITS leaves room for, but for rational values."""
 
 Interval = tuple[int, int, int]
 """(a, b, e): the closed interval [a 2^e, b 2^e]."""

@@ -88,7 +88,7 @@ def test_both_forms_of_the_polar_curve_meet() -> None:
     [
         (lambda: PolarByZ(1.5), "z0 is 1.5; a lowest point with 0 < z0 < 1"),
         (lambda: PolarByPsi("half"), "z0 is 'half', which spells no number"),
-        (lambda: PolarByZ(0.5).state(0.75), "z is 0.25; a number with 0.5 <= z <= 1"),
+        (lambda: PolarByZ(0.5).state(0.75), "depth is 0.75; a number with 0 <= depth <= 0.5"),
         (lambda: CycloidCurve(1.0).state(3), "height is 3.0; a number with 0 <= height <= 2"),
         (lambda: CycloidCurve(-1.0), "radius is -1.0; a positive number"),
     ],
