@@ -71,6 +71,18 @@ def test_a_line_is_one_piece_however_long_its_way_and_its_formula(end):
     assert problem.descent_time().limbs(3) == Descent("x", 10, start=end, end=0).descent_time().limbs(3)
 
 
+def test_a_curve_that_falls_by_little_of_its_height_is_served():
+    """Its drop is lost in the first precision of the chart."""
+    problem = Descent("1 + 1e-30*(x + x**2)", "2e-30", start=1, end=0)
+    with mp.workdps(30):
+        expected = mp.quad(lambda u: 2 / mp.sqrt(4 * (3 - u * u)), [0, 1]) / mp.mpf("1e-30")
+    assert float(problem.descent_time()) == pytest.approx(float(expected), rel=1e-14)
+    with pytest.raises(
+        ValueError, match="is not proven with 256 bits to end lower; an end below the start is accepted"
+    ):
+        Descent("1 + 1e-90*x", start=1, end=0)
+
+
 def test_a_start_that_is_almost_level_is_served():
     """The time down y = -x^2 - s x is the integral of sqrt((1 + (2 x + s)^2)/(2 g x (x + s)))."""
     problem = Descent("-x**2-1e-12*x", 1, start=0, end=1)

@@ -104,7 +104,8 @@ def _doubtful(curve: Curve, found: Unreal) -> ValueError:
 def _check_ends(curve: Curve, released: Fraction) -> None:
     (top, *_), (bottom, *_) = (_at(curve, w) for w in (released, Fraction(1)))
     if top.is_finite() and bottom.is_finite() and not top > bottom:
-        raise _refusal(curve, "ends no lower than it starts; an end below the start is accepted")
+        fails = "ends no lower than it starts" if top <= bottom else f"is not proven with {BITS} bits to end lower"
+        raise _refusal(curve, f"{fails}; an end below the start is accepted")
 
 
 def _order(curve: Curve, released: Fraction) -> int:

@@ -31,7 +31,8 @@ __all__ = ["ChartWorkError", "NoChartError", "Primitive", "arc", "clock", "piece
 REACH = 3
 OVERLAP = Fraction(5, 4)
 """A piece's series serves places up to this many half-widths from its centre: neighbouring pieces overlap."""
-CHART_BITS = 64
+CHART_BITS = (64, 512)
+"""Working precisions of a chart, the latter for a curve that falls by little of its height."""
 MAX_BOXES = 64
 """Complex balls in which a disc is covered, before it is cut."""
 MAX_CUTS = 4
@@ -39,7 +40,7 @@ MAX_CUTS = 4
 MAX_DEPTH = 40
 MAX_DISCS = 2500
 """Discs that are tried for one curve."""
-MAX_OPERATIONS = 2_000_000
+MAX_OPERATIONS = 1_000_000
 """Terms of the curve's formulas that are evaluated in complex balls for one curve."""
 CENTRED_COST = 4
 Way = tuple[int, "Callable[[Any, acb], Any]"]
@@ -81,6 +82,17 @@ def pieces(slide: Slide, of: str) -> tuple[Piece, ...]:
         ChartWorkError: MAX_DISCS or MAX_OPERATIONS are not enough.
         NoChartError: a piece would be shorter than 2^-MAX_DEPTH: the integrand is not analytic near the place.
     """
+    low, high = CHART_BITS
+    try:
+        return _pieces(slide, of, low)
+    except ChartWorkError:
+        raise
+    except NoChartError:
+        return _pieces(slide, of, high)
+
+
+def _pieces(slide: Slide, of: str, bits: int) -> tuple[Piece, ...]:
+    """The same at one precision."""
     found: list[Piece] = []
     cover, tried = _Cover(slide, of), 0
     waiting = [(Fraction(0), Fraction(1))]
@@ -92,7 +104,7 @@ def pieces(slide: Slide, of: str) -> tuple[Piece, ...]:
         if tried > MAX_DISCS or cover.operations > MAX_OPERATIONS:
             raise ChartWorkError(low)
         centre, radius = (Fraction(0), high) if low == 0 else ((low + high) / 2, (high - low) / 2)
-        with ctx.workprec(CHART_BITS):
+        with ctx.workprec(bits):
             bound = cover.bound(centre, REACH * radius)
         if bound is None:
             middle = (low + high) / 2
