@@ -102,6 +102,14 @@ def waits(f, y, h):
 """
 
 
+AS_FROM_A_TERMINAL = """
+import signal, sys
+from compare.__main__ import main
+signal.signal(signal.SIGINT, signal.default_int_handler)
+sys.exit(main(sys.argv[1:]))
+"""
+
+
 @pytest.fixture
 def steps(tmp_path):
     (tmp_path / "own.py").write_text(STEPS)
@@ -175,7 +183,7 @@ def test_a_module_that_does_so_when_it_is_imported_is_one_sentence(body, says, t
     ("number", "code"), [(signal.SIGINT, 130), (signal.SIGTERM, 143), (signal.SIGKILL, -signal.SIGKILL)]
 )
 def test_the_step_ends_with_the_command_that_tries_it(number, code, steps):
-    command = [sys.executable, "-m", "compare", "check", f"{steps}:waits"]
+    command = [sys.executable, "-c", AS_FROM_A_TERMINAL, "check", f"{steps}:waits"]
     with subprocess.Popen(command, cwd=ROOT, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
         left = steps.parent / "child"
         wait_for(lambda: left.exists() and left.read_text())
