@@ -22,7 +22,7 @@ SETTINGS = ("file", "problem", "columns", "skip", "comment", "rows", "exact", "f
 
 def add_options(parser: argparse.ArgumentParser, *, with_families: bool) -> None:
     """Add them to a parser; those of the families of problems take time, and are left out where nobody asks."""
-    parser.add_argument("file", metavar="FILE", help="CSV, NPY, NPZ or HDF5; - reads CSV from standard input")
+    parser.add_argument("file", metavar="FILE", help="CSV, JSON, NPY, NPZ or HDF5; - reads text from standard input")
     parser.add_argument("--problem", default="pendulum", metavar="NAME", help="family of problems (default pendulum)")
     parser.add_argument("--columns", metavar="A,B,C", help="the file's names of the time and the state")
     parser.add_argument("--skip", metavar="N", help="lines of a text before its table begins")
