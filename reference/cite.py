@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from reference.store.schema import RELEASED
-
 if TYPE_CHECKING:
     from reference.store import Dataset
 
@@ -19,6 +17,8 @@ def cite(dataset: Dataset, form: str = "bibtex") -> str:
 
     The year is the file's, where it is dated, else that in which its version of the program was released.
     """
+    from reference.store.schema import RELEASED
+
     title, version = dataset.attrs["title"], dataset.attrs["version"]
     creators, mark = dataset.attrs["creators"], f"sha256:{dataset.fingerprint}"
     year = str(dataset.provenance.get("date", RELEASED[version]))[:4]

@@ -70,6 +70,7 @@ def _inputs(dataset: Dataset, variable: Variable, group: str, index: tuple[int, 
     layout = next(layout for layout in dataset.layouts if layout.path == f"/{group}")
     for instance in layout.instances:
         given[instance.name] = mp.mpf(dataset[f"{group}/{instance.name}"].value[index[0]].item())
-    along = [dim for dim in variable.dims if dim not in given]
+    lead = {axis.name for axis in layout.first}
+    along = [dim for dim in variable.dims if dim not in lead]
     argument = mp.mpf(dataset[f"{group}/{along[0]}"].value[index[-1]].item()) if along else None
     return given, argument

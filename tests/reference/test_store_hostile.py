@@ -16,6 +16,7 @@ import pytest
 from h5py import h5a, h5g, h5p, h5s, h5t
 
 from reference.names import printable
+from reference.plan import Plan
 from reference.store import DatasetError
 
 MUCH = 64 << 20
@@ -253,3 +254,22 @@ def test_the_name_of_a_file_commands_no_terminal(built, tmp_path, capsys):
     (tmp_path / name).write_text("no dataset\n")
     assert main(["show", str(tmp_path / name)]) == 2
     assert capsys.readouterr().err.rstrip("\n").isprintable()
+
+
+def test_names_in_anothers_file_need_not_be_utf8(tmp_path):
+    from reference.store.columns import foreign_columns
+
+    with h5py.File(tmp_path / "x.h5", "w") as file:
+        file.create_dataset(b"thet\xff", data=[1.0])
+    with foreign_columns(tmp_path / "x.h5") as found:
+        assert list(found) == ["thet\\xff"]
+
+
+def test_a_plan_whose_file_could_not_be_read_is_not_built(tmp_path):
+    from reference.build import build
+
+    with pytest.raises(
+        ValueError, match=r"^profile 'cor' is unknown, perhaps core; accepted are core, full, and names of"
+    ):
+        build(Plan("cor", ()), tmp_path / "x.h5")
+    assert list(tmp_path.iterdir()) == []
