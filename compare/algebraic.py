@@ -12,9 +12,10 @@ from fractions import Fraction
 from functools import lru_cache
 from typing import TYPE_CHECKING, TypeAlias
 
-from flint import arb, ctx, fmpq, fmpq_poly, fmpz_poly
+from flint import arb, fmpq, fmpq_poly, fmpz_poly
 
 from reference.arithmetic import BALL
+from reference.precision import ctx
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -63,8 +64,9 @@ class Field:
 
 
 @lru_cache(maxsize=256)
-def _nearest_root(field: Field, _precision: int) -> arb:
-    roots = [value for value, _ in fmpz_poly(list(field.coefficients)).complex_roots() if value.imag == 0]
+def _nearest_root(field: Field, bits: int) -> arb:
+    with ctx.workprec(bits):
+        roots = [value for value, _ in fmpz_poly(list(field.coefficients)).complex_roots() if value.imag == 0]
     found: arb = min((value.real for value in roots), key=lambda value: abs(float(value) - field.near))
     return found
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
-from functools import cached_property, lru_cache
+from functools import lru_cache
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -14,6 +14,7 @@ from compare.bound import FormatArithmetic
 from compare.cases import case_of
 from compare.lane import Lane, sample_steps, start_level
 from compare.reach import Reach, reach
+from reference.once import cached_property
 
 if TYPE_CHECKING:
     from fractions import Fraction

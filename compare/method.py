@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
@@ -12,6 +11,7 @@ from compare.algebraic import Coefficient, Q, enclose
 from compare.contract import Method, OneStep, State, System
 from compare.increment import advance, increment, part
 from compare.properties import is_symmetric, is_symplectic, used_stages
+from reference.once import cached_property
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 from compare import newton
@@ -11,6 +10,7 @@ from compare.algebraic import Q
 from compare.increment import increment
 from compare.past import Past, moved, total, without_zeros
 from compare.stability import is_zero_stable, multistep_order
+from reference.once import cached_property
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

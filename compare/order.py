@@ -10,13 +10,14 @@ from fractions import Fraction
 from math import factorial
 from typing import TYPE_CHECKING, Any
 
-from flint import arb, ctx
+from flint import arb
 
 from compare.algebraic import Algebraic, enclose
 from compare.method import Splitting, Tableau
 from compare.partitioned import Partitioned
 from compare.trees import ElementaryWeights, density, trees
 from compare.words import coefficient, lyndon_words, nystrom_words
+from reference.precision import PrecisionError, ctx
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
@@ -27,6 +28,8 @@ if TYPE_CHECKING:
 __all__ = ["PROOF_BITS", "order_of_partitioned", "order_of_splitting", "order_of_tableau", "proven_order"]
 
 PROOF_BITS = 300
+NARROW_BITS = 100
+"""A residual that is zero is known to be smaller than 2^-NARROW_BITS; one that is not is far larger."""
 LIMIT = 12
 """No order is looked for beyond it."""
 
@@ -91,7 +94,16 @@ def _largest(residuals: Callable[[int], Iterator[Any]]) -> int:
 
 
 def _vanishes(value: Any) -> bool:
-    return bool(value.contains(0)) if isinstance(value, arb) else bool(value == 0)
+    """Whether a residual is zero.
+
+    Raises:
+        PrecisionError: its ball is too wide to tell.
+    """
+    if not isinstance(value, arb):
+        return bool(value == 0)
+    if value.contains(0) and not value.rad() < arb(2) ** -NARROW_BITS:
+        raise PrecisionError("a condition of order was met in balls too wide to decide it.")
+    return bool(value.contains(0))
 
 
 def _numbers(coefficients: Sequence[Coefficient]) -> list[Any]:

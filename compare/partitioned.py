@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property
 from typing import Any
 
 from compare import newton
@@ -11,6 +10,7 @@ from compare.algebraic import Coefficient, Q, enclose
 from compare.contract import OneStep, State, System
 from compare.increment import advance, increment
 from compare.properties import is_symmetric, is_symplectic
+from reference.once import cached_property
 
 __all__ = ["Partitioned"]
 

@@ -9,10 +9,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import cached_property
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from reference.exact import as_number, exact
+from reference.once import cached_property
 from reference.problem import APART, ClosedForm, Problem, Quantity, Row
 from reference.problems.cycloid.arc import CycloidArc
 from reference.problems.polar import PolarBrachistochrone

@@ -13,7 +13,7 @@ from itertools import pairwise
 from typing import TYPE_CHECKING
 
 import numpy as np
-from flint import arb, ctx
+from flint import arb
 
 from compare.aspects import period_of
 from compare.lane import Lane
@@ -22,6 +22,7 @@ from compare.records import OwnPeriod
 from compare.run import SPARE_BITS, as_balls
 from compare.submission.orbit import orbits
 from reference.arithmetic import BALL
+from reference.precision import ctx
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence

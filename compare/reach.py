@@ -15,13 +15,13 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
-from flint import ctx
 
 from compare.aspects import aspect_of, conserves
 from compare.bound import BoundSystem, FormatArithmetic
 from compare.lane import StartInvariant
 from compare.precision import precision
 from reference.arithmetic import NUMPY
+from reference.precision import ctx
 
 if TYPE_CHECKING:
     from compare.precision import Precision

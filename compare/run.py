@@ -5,15 +5,16 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from flint import arb, ctx
+from flint import arb
 
 from compare.submission.orbit import orbits
 from compare.submission.place import NOWHERE, apart
 from reference.arithmetic import BALL
+from reference.once import cached_property
+from reference.precision import ctx
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

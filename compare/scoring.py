@@ -21,6 +21,7 @@ from compare.sharing import shared
 from compare.wanted import DEFAULT_SCORES, EXTRAS, chosen_scores
 from reference.exact import as_number, exact
 from reference.problem import Problem
+from reference.underflow import require_gradual
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -132,7 +133,9 @@ def score_all(
     Raises:
         ValueError: an argument is outside its range, a name unknown, or no method fits any problem.
         TypeError: an argument is of the wrong kind.
+        UnderflowModeError: the processor takes subnormal numbers for zero.
     """
+    require_gradual("a comparison")
     if not all(isinstance(problem, Problem) for problem in problems):
         raise TypeError(f"problems holds a {type(problems[0]).__name__}; problems such as Pendulum(1.0) are accepted.")
     fmt, wanted = find_precision(precision), chosen_scores(some(scores, "scores"))

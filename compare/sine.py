@@ -14,10 +14,9 @@ from __future__ import annotations
 from functools import cache
 from typing import Any
 
-from mpmath import mp
-
 from reference.arithmetic import Heyoka
 from reference.compiler import hy
+from reference.precision import mp
 
 __all__ = ["LaneArithmetic", "sine"]
 

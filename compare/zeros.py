@@ -8,13 +8,14 @@ the only one by an interval Newton step, and is enclosed to any precision by mor
 from __future__ import annotations
 
 from fractions import Fraction
-from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
-from flint import arb, arb_mat, ctx
+from flint import arb, arb_mat
 
 from reference.arithmetic import BALL
 from reference.dual import Dual
+from reference.once import cached_property
+from reference.precision import ctx
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence

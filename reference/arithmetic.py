@@ -9,11 +9,11 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
-from mpmath import mp
 
 from reference.balls import BALL, Ball, ComplexBall
 from reference.calculus import mpmath_integral, mpmath_root
 from reference.elliptic import MpmathElliptic
+from reference.precision import mp
 
 if TYPE_CHECKING:
     from collections.abc import Callable

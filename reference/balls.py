@@ -2,23 +2,24 @@
 
 from __future__ import annotations
 
-from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
-from flint import acb, arb, arb_series, ctx, fmpq
+from flint import acb, arb, arb_series, fmpq
 
 from reference.calculus import ball_integral, ball_root
 from reference.elliptic import BallElliptic
+from reference.precision import ctx
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
+    from collections.abc import Callable
+    from contextlib import AbstractContextManager
     from fractions import Fraction
 
 __all__ = ["BALL", "SERIES", "Ball", "BallSeries", "ComplexBall"]
 
 
 class Ball:
-    """Arb's real balls at the precision of ``flint.ctx``."""
+    """Arb's real balls at the working precision in force."""
 
     elliptic = staticmethod(BallElliptic)
 
@@ -175,18 +176,15 @@ class ComplexBall:
 
 
 class BallSeries:
-    """Arb's power series with balls as coefficients; a constant stays a ball."""
+    """Arb's power series with balls as coefficients; a constant stays a ball.
+
+    A series is known up to its own ``prec``, on which every bound of what is left out rests.
+    """
 
     @staticmethod
-    @contextmanager
-    def of_length(terms: int) -> Iterator[None]:
+    def of_length(terms: int) -> AbstractContextManager[None]:
         """Series are known up to this many terms."""
-        before = ctx.cap
-        ctx.cap = terms
-        try:
-            yield
-        finally:
-            ctx.cap = before
+        return ctx.worklength(terms)
 
     @staticmethod
     def number(value: Fraction) -> arb:

@@ -8,10 +8,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from flint import acb, arb, ctx
-from mpmath import mp
+from flint import acb, arb
 
 from reference.dual import with_slope
+from reference.precision import ctx, mp
 from reference.routes import quadrature
 
 if TYPE_CHECKING:

@@ -6,22 +6,20 @@ the quantity has over the arguments at hand, or everything stops.
 
 from __future__ import annotations
 
-import functools
 import math
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
-from flint import arb, ctx
-
-from reference.arithmetic import BALL
 from reference.exact import positive, spelled
 from reference.limbs import decimal, exact_decimal, interval, to_fixed, to_limbs
+from reference.once import cached_property
 from reference.routes import enclosure
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
+
+    from flint import arb
 
     from reference.problem import Problem, Quantity, Row
 
@@ -29,6 +27,8 @@ __all__ = ["REQUIRED_DIGITS", "ROUTES", "Agreement", "Certified", "DisagreementE
 
 REQUIRED_DIGITS = 45
 ROUTE_DIGITS = 60
+FAR = Fraction(10) ** 300
+"""A gap that is larger is as bad."""
 ROUTES = ("taylor", "quadrature")
 """The routes that are held against the enclosure."""
 
@@ -77,12 +77,16 @@ def agreement(problem: Problem, row: str, arguments: Sequence[Any], route: str) 
 
 
 def _digits(pairs: Sequence[tuple[arb, Fraction]]) -> list[float]:
-    bits = int(ROUTE_DIGITS * 3.33) + 64
-    with ctx.workprec(bits):
-        largest = functools.reduce(arb.max, (truth.abs_upper() for truth, _ in pairs))
-        scale = arb(1) if largest.is_zero() else largest
-        gaps = [float((abs(truth - BALL.number(value)) / scale).upper()) for truth, value in pairs]
+    """The digits of each pair, at most ROUTE_DIGITS, by exact arithmetic on the balls' middles and radii."""
+    balls = [(_point(truth.mid()), _point(truth.rad()), value) for truth, value in pairs]
+    scale = max(abs(middle) + radius for middle, radius, _ in balls) or Fraction(1)
+    gaps = [float(min((abs(middle - value) + radius) / scale, FAR)) for middle, radius, value in balls]
     return [min(float(ROUTE_DIGITS), -math.log10(gap)) if gap else float(ROUTE_DIGITS) for gap in gaps]
+
+
+def _point(exact: arb) -> Fraction:
+    mantissa, exponent = exact.man_exp()
+    return int(mantissa) * Fraction(2) ** int(exponent)
 
 
 def _shown(row: Row, argument: Any) -> str:

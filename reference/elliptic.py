@@ -7,11 +7,16 @@ cannot be had from the other without loss.
 from __future__ import annotations
 
 import math
-from functools import cached_property
-from typing import Any, Protocol
+from operator import mul
+from typing import TYPE_CHECKING, Any, Protocol
 
-from flint import acb, arb, arb_poly, arb_series, ctx
-from mpmath import mp
+from flint import acb, arb, arb_poly
+
+from reference.once import cached_property
+from reference.precision import mp
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
 
 __all__ = ["BallElliptic", "Elliptic", "MpmathElliptic", "sine_polynomial"]
 
@@ -72,22 +77,28 @@ class BallElliptic:
 def sine_polynomial(k: arb, width: arb, bits: int) -> arb_poly:
     """P with sn(width x) = x P(x^2) for -1 <= x <= 1, width < 1, to about ``bits`` bits; every error is in its balls.
 
-    sn inverts the elliptic integral of the first kind.  The coefficients of sn, cn and dn are at most those of tan, sec
-    and sec, which obey the same equations with k = 1 and without the signs: for |v| <= r < pi/2, |sn v| <= tan r, and
-    Cauchy's estimate bounds the rest of the series.
+    With sn = x S(x^2), one coefficient after another follows from sn'' = -(1 + k^2) sn + 2 k^2 sn^3 (DLMF 22.13.13).
+    By sn' = cn dn, cn' = -sn dn and dn' = -k^2 sn cn they are at most those of tan, as those of cn and dn are at most
+    those of sec, for these obey the same equations with k = 1 and without the signs: for |v| <= r < pi/2,
+    |sn v| <= tan r, and Cauchy's estimate bounds the rest of the series.  Not a number where width < 1 is not certain.
     """
     radius = arb(1.5)
     ratio = width / radius
-    terms = 2 * math.ceil((bits + 6) / -math.log2(float(ratio)) / 2) + 1
-    before, ctx.cap = ctx.cap, terms
-    try:
-        x, m = arb_series([0, 1]), k * k
-        sine = ((1 - x * x) * (1 - m * x * x)).rsqrt().integral().reversion()
-        odd = sine(arb_series([0, width])).coeffs()[1::2]
-    finally:
-        ctx.cap = before
-    odd[0] += arb(0, 1) * radius.tan() * ratio**terms / (1 - ratio)
+    if not (0 < width < 1 and 0 < float(ratio) < 1):
+        return arb_poly([arb.nan()])
+    m, sn, square = k * k, [arb(1)], [arb(1)]
+    for i in range(1, math.ceil((bits + 6) / -math.log2(float(ratio)) / 2)):
+        cube = _convolved(square[:-1], sn[:-1])
+        sn.append((2 * m * cube - (1 + m) * sn[-1]) / (2 * i * (2 * i + 1)))
+        square.append(_convolved(sn, sn))
+    odd = [value * width ** (2 * i + 1) for i, value in enumerate(sn)]
+    odd[0] += arb(0, 1) * radius.tan() * ratio ** (2 * len(odd) + 1) / (1 - ratio)
     return arb_poly(odd)
+
+
+def _convolved(a: Sequence[arb], b: Sequence[arb]) -> arb:
+    """The last coefficient that a product of two series of equally many has."""
+    return sum(map(mul, a, reversed(b)), arb(0))
 
 
 class MpmathElliptic:

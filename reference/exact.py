@@ -16,6 +16,7 @@ from typing import Any
 
 import numpy as np
 
+from reference.binary64 import exact_value, nearest, with_subnormals
 from reference.names import short
 
 __all__ = ["as_number", "exact", "exact_array", "expansion", "positive", "spelled"]
@@ -60,7 +61,7 @@ def _exact(value: Any, name: str) -> Fraction:
     if isinstance(value, (float, np.floating, Decimal)):
         if isinstance(value, Decimal) or not np.isfinite(value):
             raise ValueError(f"{name} is {value}, which is not finite; {ACCEPTED}.")
-        return Fraction(*(int(part) for part in value.as_integer_ratio()))
+        return exact_value(value)
     raise TypeError(f"{name} is of type {type(value).__name__}; {ACCEPTED}.")
 
 
@@ -96,6 +97,8 @@ def exact_array(values: Any, name: str = "value") -> tuple[list[Fraction], tuple
         raise ValueError(f"{name} is empty; at least one number is accepted.")
     elements = array.ravel().tolist()
     if array.dtype.kind == "f" and array.itemsize <= 8 and np.isfinite(array).all():
+        if with_subnormals(array):
+            return [exact_value(value) for value in array.ravel()], array.shape
         return [Fraction(value) for value in elements], array.shape
     if any(isinstance(value, (list, tuple, np.ndarray)) for value in elements):
         raise ValueError(f"{name} is ragged; {ROWS_ACCEPTED}.")
@@ -136,15 +139,12 @@ def positive(value: Any, name: str) -> int:
 def as_number(value: Fraction) -> float | str:
     """Return the float that equals ``value``, or where there is none its decimal or fraction as a string.
 
-    ``exact(as_number(x)) == x`` for every x.
+    ``exact(as_number(x)) == x`` for every x.  Where the processor takes a float for zero it is no number to be shown.
     """
-    try:
-        rounded = float(value)
-    except OverflowError:
-        rounded = math.inf
-    if math.isfinite(rounded) and Fraction(rounded) == value:
-        return rounded
-    return spelled(value)
+    rounded = nearest(value)
+    if not math.isfinite(rounded) or exact_value(rounded) != value:
+        return spelled(value)
+    return rounded if value == 0 or rounded != 0.0 else spelled(value)
 
 
 def spelled(value: Fraction) -> str:

@@ -10,9 +10,11 @@ operations.  (``balls.BallSeries`` has all its coefficients at once, and is made
 from __future__ import annotations
 
 from fractions import Fraction
-from functools import cached_property, reduce
+from functools import reduce
 from operator import add
 from typing import TYPE_CHECKING, Any
+
+from reference.once import cached_property
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Sequence

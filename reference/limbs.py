@@ -11,12 +11,16 @@ from decimal import ROUND_HALF_EVEN, Context, Decimal
 from fractions import Fraction
 from typing import TYPE_CHECKING, TypeVar
 
-from flint import arb, ctx
+from reference.binary64 import BINARY64_BITS, exact_value, nearest, number_of, parts, pattern, rounded
+from reference.precision import ctx
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
+    from flint import arb
+
 __all__ = [
+    "BINARY64_BITS",
     "MAX_BITS",
     "Interval",
     "WorkBoundError",
@@ -31,10 +35,10 @@ __all__ = [
     "ziv",
 ]
 
-BINARY64_BITS = 53
-BINARY64_MIN_EXPONENT = -1074
 HALVES = 2.0**BINARY64_BITS
 """Halves of the last bit in a power of two."""
+LEAST = 2.0**-960
+"""From here on a double and half of its last bit are far from the subnormal numbers, whatever the processor's mode."""
 DECIMAL_EXPONENT = 1 << 20
 """Numbers beyond 2^this, about 10^315653, or below its reciprocal have no decimals: they would take minutes."""
 MAX_BITS = 1 << 17
@@ -63,32 +67,6 @@ def interval(ball: arb) -> Interval | None:
     return low << (low_exponent - exponent), high << (high_exponent - exponent), exponent
 
 
-def rounded(mantissa: int, exponent: int, bits: int, min_exponent: int | None = None) -> tuple[int, int]:
-    """Round ``mantissa * 2^exponent`` to ``bits`` bits, nearest, ties to even: the result as (mantissa, exponent).
-
-    With ``min_exponent`` no bit below 2^min_exponent is kept (gradual underflow).
-    """
-    drop = mantissa.bit_length() - bits
-    if min_exponent is not None:
-        drop = max(drop, min_exponent - exponent)
-    if drop <= 0:
-        return mantissa, exponent
-    if drop > mantissa.bit_length():
-        return 0, exponent + drop
-    floor, rest = mantissa >> drop, mantissa & ((1 << drop) - 1)
-    half = 1 << (drop - 1)
-    if rest > half or (rest == half and floor & 1):
-        floor += 1
-    return floor, exponent + drop
-
-
-def _binary64(mantissa: int, exponent: int) -> float:
-    try:
-        return math.ldexp(*rounded(mantissa, exponent, BINARY64_BITS, BINARY64_MIN_EXPONENT))
-    except OverflowError:
-        return math.inf if mantissa > 0 else -math.inf
-
-
 def _beyond_range() -> OverflowError:
     return OverflowError(
         "the value is beyond the range of a double, about 1.8e308; its decimal digits can be asked for instead."
@@ -106,17 +84,17 @@ def limbs(bounds: Interval | None, count: int) -> tuple[float, ...] | None:
     low, high, exponent = bounds
     found: list[float] = []
     for _ in range(count):
-        value = _binary64(low, exponent)
-        if value != _binary64(high, exponent):
+        bits = pattern(low, exponent)
+        if bits != pattern(high, exponent):
             return None
+        value = number_of(bits)
         if math.isinf(value):
             raise _beyond_range()
-        found.append(value + 0.0)
-        numerator, denominator = value.as_integer_ratio()
-        value_exponent = 1 - denominator.bit_length()
+        found.append(value)
+        mantissa, value_exponent = parts(bits)
         shift = max(0, exponent - value_exponent)
         exponent -= shift
-        taken = numerator << (value_exponent - exponent)
+        taken = mantissa << (value_exponent - exponent)
         low, high = (low << shift) - taken, (high << shift) - taken
     return tuple(found)
 
@@ -126,8 +104,8 @@ def of_ball(ball: arb, count: int) -> Limbs | None:
 
     A double v is what every point rounds to where ball - v lies strictly within half of v's last bit, which the next
     limb shows: it is the nearest double to the remainder's midpoint, and half a last bit is itself a double.  Powers of
-    two, whose lower neighbour is nearer, numbers below the normal range and what is not decided at once are left to
-    the exact end points.
+    two, whose lower neighbour is nearer, numbers near and below the end of the normal range and what is not decided at
+    once are left to the exact end points.
 
     Raises:
         OverflowError: every point of the ball is beyond the range of binary64.
@@ -137,7 +115,7 @@ def of_ball(ball: arb, count: int) -> Limbs | None:
     for _ in range(count):
         value = float(rest)
         size, half = abs(value), math.ulp(value) / 2
-        if not size < bound or size == half * HALVES:
+        if not LEAST < size < bound or size == half * HALVES:
             return limbs(interval(ball), count)
         found.append(value)
         rest, bound = rest - value, half
@@ -152,11 +130,10 @@ def exact_limbs(value: Fraction, count: int) -> tuple[float, ...]:
     """
     found: list[float] = []
     for _ in range(count):
-        try:
-            found.append(float(value))
-        except OverflowError:
-            raise _beyond_range() from None
-        value -= Fraction(found[-1])
+        found.append(nearest(value))
+        if math.isinf(found[-1]):
+            raise _beyond_range()
+        value -= exact_value(found[-1])
     return tuple(found)
 
 

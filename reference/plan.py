@@ -9,10 +9,12 @@ from __future__ import annotations
 import hashlib
 import json
 from dataclasses import dataclass, field
+from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from reference.binary64 import hexadecimal, nearest
 from reference.exact import exact
 
 if TYPE_CHECKING:
@@ -226,7 +228,7 @@ class Plan:
         for group in self.groups:
             layout = group.layout
             described = [layout.path, repr(layout.coordinates), repr(layout.rows), group.taylor_elements]
-            exact_parameters = {name: float(value).hex() for name, value in group.parameters.items()}
+            exact_parameters = {name: hexadecimal(nearest(Fraction(value))) for name, value in group.parameters.items()}
             digest.update(json.dumps([described, exact_parameters], sort_keys=True).encode())
             for name in sorted(group.inputs):
                 digest.update(f"{name} {group.inputs[name].size}\n".encode() + group.inputs[name].tobytes())

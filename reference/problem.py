@@ -13,13 +13,13 @@ from fractions import Fraction
 from typing import TYPE_CHECKING, Any, ClassVar, Protocol
 
 import numpy as np
-from mpmath import mp
 
 from reference.arithmetic import MPMATH
 from reference.certify import Certified
 from reference.exact import exact_array, positive
 from reference.limbs import MAX_BITS, to_limbs
 from reference.names import unknown
+from reference.precision import mp
 from reference.routes import enclosure, quadrature
 
 if TYPE_CHECKING:

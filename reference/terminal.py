@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any, NoReturn
 
 from reference.interrupts import Terminated, terminable
 from reference.names import short, unknown
+from reference.underflow import require_gradual
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
@@ -111,6 +112,7 @@ def run(command: Callable[[Sequence[str] | None], int], arguments: Sequence[str]
     """Run a command and return its exit code; what a user can cause ends in one sentence on stderr and code 2."""
     with _streams(), terminable():
         try:
+            require_gradual("the command line")
             code = command(arguments)
             sys.stdout.flush()
         except BrokenPipeError:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from reference.binary64 import shortest
 from reference.blocks import LIMBS, START_BITS, compare, decimals, prove
 from reference.certify import ROUTES, DisagreementError
 from reference.claims import decimal_fault, measurement_fault
@@ -133,15 +134,24 @@ def _compare(dataset: Dataset, block: Block, limbs: np.ndarray, proofs: dict[tup
         value, tail = dataset[proof.name].read(block.selection(component))
         stored = np.concatenate([np.reshape(value, (-1, 1)), np.reshape(tail, (-1, LIMBS - 1))], axis=1)
         proven = limbs[:, component.component]
-        differing = np.flatnonzero((stored != proven).any(axis=1))
+        differing = np.flatnonzero((_bits(stored) != _bits(proven)).any(axis=1))
         proof.elements += len(proven)
         proof.wrong += differing.size
         if differing.size and not proof.first:
             i = int(differing[0])
             proof.first = (
-                f"element {(block.element, block.start + i)} is stored as {stored[i].tolist()} "
-                f"and proven to be {proven[i].tolist()}"
+                f"element {(block.element, block.start + i)} is stored as {_spelled(stored[i])} "
+                f"and proven to be {_spelled(proven[i])}"
             )
+
+
+def _bits(limbs: np.ndarray) -> np.ndarray:
+    """Limbs by their bits: every processor tells these apart, and -0.0 is no limb."""
+    return np.ascontiguousarray(limbs, dtype=np.float64).view(np.int64)
+
+
+def _spelled(limbs: np.ndarray) -> str:
+    return f"[{', '.join(map(shortest, limbs.tolist()))}]"
 
 
 def _sample(groups: list[Group]) -> Iterator[Block]:

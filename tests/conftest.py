@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+import flint
 import heyoka
+import mpmath
 import pytest
-from flint import ctx
-from mpmath import mp
+
+from reference.precision import ctx, mp
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -25,8 +27,12 @@ def one_heyoka_thread() -> Iterator[None]:
 @pytest.fixture(autouse=True)
 def working_precision_stays_as_it_was() -> Iterator[None]:
     """Precision is local: no test, and nothing that it calls, leaves another behind."""
-    before = ctx.prec, mp.prec
+
+    def in_force() -> tuple[int, ...]:
+        return ctx.prec, ctx.cap, mp.prec, mpmath.mp.prec
+
+    before = in_force()
     yield
-    after = ctx.prec, mp.prec
-    ctx.prec, mp.prec = before
+    after = in_force()
+    flint.ctx.prec, flint.ctx.cap, _, mpmath.mp.prec = before
     assert after == before, "the working precision of python-flint or mpmath was left changed"

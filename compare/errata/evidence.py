@@ -7,9 +7,8 @@ from fractions import Fraction
 from functools import wraps
 from typing import TYPE_CHECKING, Any
 
-from mpmath import mp
-
 from reference.arithmetic import MPMATH
+from reference.precision import mp
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -5,11 +5,10 @@ from __future__ import annotations
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
-from mpmath import mp
-
 from compare.errata.erratum import REPORT, Erratum
 from compare.errata.evidence import GRAVITY, along, exactly, near, precisely, proven
 from compare.errata.spelled import spelled
+from reference.precision import mp
 from reference.problems.pendulum import Pendulum
 
 if TYPE_CHECKING:

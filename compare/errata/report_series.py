@@ -6,12 +6,11 @@ from fractions import Fraction
 from math import factorial
 from typing import TYPE_CHECKING, Any
 
-from mpmath import mp
-
 from compare.errata.cosines import coefficient, plus, sine, times
 from compare.errata.erratum import REPORT, Erratum
 from compare.errata.evidence import GRAVITY, along, exactly, near, precisely, proven
 from compare.errata.spelled import spelled
+from reference.precision import mp
 from reference.problems.pendulum import Pendulum
 
 if TYPE_CHECKING:

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from mpmath import mp
-
 from compare.errata.erratum import REPORT, Erratum
 from compare.errata.evidence import GRAVITY, along, exactly, precisely, proven, rounds_to
 from compare.errata.report_series import TO_THE_FOURTH
 from compare.errata.spelled import spelled
 from compare.published.source import tables
+from reference.precision import mp
 from reference.problems.pendulum import Pendulum
 
 __all__ = ["TABLES"]

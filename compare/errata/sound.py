@@ -7,14 +7,13 @@ from fractions import Fraction
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
-from mpmath import mp
-
 from compare.errata import report_series as series
 from compare.errata.erratum import REPORT, THESIS
 from compare.errata.evidence import GRAVITY, along, exactly, near, precisely, proven, rates
 from compare.errata.report_motion import SUBSTITUTED, is_velocity
 from compare.errata.spelled import spelled
 from compare.errata.thesis_curves import NUMERATOR, are_rates
+from reference.precision import mp
 from reference.problems.cycloid import Tautochrone
 from reference.problems.descent import Descent
 from reference.problems.pendulum import Pendulum

@@ -12,7 +12,7 @@ from fractions import Fraction
 from math import factorial
 from typing import TYPE_CHECKING, Any
 
-from mpmath import mp
+from reference.precision import mp
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -8,8 +8,6 @@ from functools import partial
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
-from mpmath import mp
-
 from compare.algebraic import Q
 from compare.errata.erratum import THESIS, Erratum
 from compare.errata.evidence import GRAVITY, along, exactly, near, precisely, proven, rates, rounds_to
@@ -18,6 +16,7 @@ from compare.methods.explicit import RK4, RK4_MISPRINTED
 from compare.order import order_of_tableau
 from compare.published.curve import listed_error
 from compare.published.source import tables
+from reference.precision import mp
 from reference.problems.cycloid import Tautochrone
 
 if TYPE_CHECKING:

@@ -5,11 +5,10 @@ from __future__ import annotations
 from fractions import Fraction
 from typing import Any
 
-from mpmath import mp
-
 from compare.errata.erratum import THESIS, Erratum
 from compare.errata.evidence import along, near, precisely, proven, rounds_to
 from compare.errata.spelled import spelled
+from reference.precision import mp
 from reference.problems.polar import PolarBrachistochrone
 
 __all__ = ["FIELD"]

@@ -22,6 +22,7 @@ from compare.judge.record import Check, Claims
 from compare.judge.scene import Frame, Scene, scale_of_time
 from reference import Pendulum
 from reference.problem import SeparableProblem
+from reference.underflow import require_gradual
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -75,6 +76,7 @@ def check(
         ValueError: the step raises, gives no finite real state of the right shape, depends on more than its arguments,
             or takes too long; or the order of an integrator is claimed that chooses its own steps.
     """
+    require_gradual("a check")
     tried = Pendulum(1.0) if problem is None else problem
     if not isinstance(tried, SeparableProblem):
         raise TypeError(

@@ -10,12 +10,12 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from reference.arithmetic import NUMPY
+from reference.once import cached_property
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

@@ -7,7 +7,7 @@ import sys
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
-from flint import arb, ctx
+from flint import arb
 
 from compare.submission.orbit import orbits, remark
 from compare.submission.place import apart
@@ -16,8 +16,10 @@ from compare.submission.slips import exchanged, refuse_degrees
 from compare.submission.turns import Turns
 from reference.arithmetic import BALL
 from reference.names import short
+from reference.precision import ctx
 from reference.problem import Problem
 from reference.routes import enclosure
+from reference.underflow import require_gradual
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
@@ -53,6 +55,7 @@ class Judge:
             raise TypeError(
                 f"problem is {problem!r}; a problem with a state in time, such as Pendulum(1.0), is accepted."
             )
+        require_gradual("a score")
         self.problem = problem
         self.time = _time(problem)
         self.held = 0.0

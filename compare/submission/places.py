@@ -13,11 +13,12 @@ import math
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
-from flint import arb, ctx
+from flint import arb
 
 from compare.submission.orbit import orbits
 from compare.submission.sketch import BITS, SLACK
 from reference.arithmetic import BALL, NUMPY
+from reference.precision import ctx
 
 if TYPE_CHECKING:
     from compare.submission.sketch import Sketched

@@ -16,9 +16,10 @@ double one to those of all three kinds: R_F, R_D and R_J (B. C. Carlson's forms,
 
 from __future__ import annotations
 
-from functools import cached_property
+from flint import acb, arb
 
-from flint import acb, arb, ctx
+from reference.once import cached_property
+from reference.precision import ctx
 
 __all__ = ["RadialOscillation"]
 
@@ -58,6 +59,7 @@ class RadialOscillation:
 
         R_F = pi/(2 M), R_J = (3 R_F/(2 q)) sum Q_n, and of the second kind q R_F - 2 R_G = R_F (q - (a + b)/2 + sum
         2^(n - 1) c_n^2), n > 0 (DLMF 19.22(ii)); the mean's first step is from sqrt(a) and sqrt(b) to real numbers.
+        The mean is between its last two numbers, and each term of the sums that is left out below half of that before.
         """
         large, small = ((self._size + self._mean) / 2).sqrt(), self._size.sqrt()
         square, power = -self._bend / (2 * (self._mean + self._size)), 1
@@ -71,7 +73,10 @@ class RadialOscillation:
             pole = (pole * pole + product) / (2 * pole)
             large, small = (large + small) / 2, product.sqrt()
             square, power = (square / (4 * large)) ** 2, 2 * power
-        first = arb.pi() / (2 * large)
+        least, rest = large.min(small), power * square
+        c_sum += _within(2 * rest if abs(square) < 4 * least * least else arb.nan())
+        q_sum += _within(2 * term)
+        first = arb.pi() / (2 * large.union(small))
         third = 3 * first / (2 * self._q) * q_sum
         second = first * (self._less + c_sum) - self._slope * third / 3
         return self._scale * (2 * first - 4 * self._beyond * third / 3 - self._weight * second)
@@ -97,3 +102,8 @@ class RadialOscillation:
         whole = first - 2 * self._beyond * third - self._weight * (second - self._slope * third / 2)
         time: arb = self._scale * whole.real
         return time
+
+
+def _within(size: arb) -> arb:
+    """A ball around zero that holds all numbers of this size."""
+    return size * arb(0, 1)

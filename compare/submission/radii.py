@@ -8,12 +8,13 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from flint import arb, ctx
+from flint import arb
 
 from compare.submission.place import NOWHERE, Place
 from compare.submission.radial import RadialOscillation
 from reference.arithmetic import BALL
 from reference.calculus import enclosed_zero
+from reference.precision import ctx
 from reference.problems.polar.equations import POINT_MASS
 
 if TYPE_CHECKING:

@@ -16,13 +16,15 @@ from fractions import Fraction
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
-from flint import arb, ctx
 
 from reference.arithmetic import BALL
+from reference.precision import ctx
 from reference.problems.pendulum.motions import addition
 from reference.routes import enclosure
 
 if TYPE_CHECKING:
+    from flint import arb
+
     from reference.problems.pendulum import Pendulum
 
 __all__ = ["SLACK", "Sketch", "sketch"]

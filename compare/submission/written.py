@@ -107,8 +107,7 @@ def _of_standard(value: Any, name: str) -> Written:
 
 def _of_mpmath(value: Any, name: str) -> Written:
     """A number of mpmath's, of the digits that its working precision or its own mantissa has."""
-    from mpmath import mp
-
+    mp = value.context
     if not mp.isfinite(value):
         raise ValueError(f"{name} is {value}, which is not finite; {ACCEPTED}.")
     mantissa, exponent = (int(part) for part in value.man_exp)

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from flint import arb, ctx
+from flint import arb
 
 from reference.arithmetic import BALL
 from reference.limbs import ziv
+from reference.precision import ctx
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence

@@ -5,12 +5,13 @@ from __future__ import annotations
 import math
 from copy import copy
 from fractions import Fraction
-from functools import cached_property, lru_cache
+from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from reference.arithmetic import MPMATH, Heyoka
+from reference.once import cached_property
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence

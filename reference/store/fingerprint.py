@@ -18,6 +18,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from reference.binary64 import hexadecimal
+
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
 
@@ -38,7 +40,7 @@ class Digest:
 
     def group(self, path: str, parameters: dict[str, float]) -> None:
         """Add a group with its fixed parameters."""
-        self._line(path=path, parameters={name: value.hex() for name, value in parameters.items()})
+        self._line(path=path, parameters={name: hexadecimal(value) for name, value in parameters.items()})
 
     def dataset(
         self,

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
-from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -12,6 +11,7 @@ import h5py
 import numpy as np
 
 from reference.names import unknown
+from reference.once import cached_property
 from reference.store.content import fingerprint, parameters_of, text_attribute
 from reference.store.errors import DatasetError
 from reference.store.files import check_checksum, regular_file

@@ -10,6 +10,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from reference.binary64 import hexadecimal, shortest
+
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping, Sequence
 
@@ -74,7 +76,7 @@ def root_attributes(version: str, profile: str) -> dict[str, str]:
 
 def exact_texts(numbers: Sequence[float]) -> dict[str, str]:
     """The attributes in which a few exact inputs are repeated for readers: shortest decimals, and hex floats."""
-    return {"decimal": " ".join(map(repr, numbers)), "hex": " ".join(number.hex() for number in numbers)}
+    return {"decimal": " ".join(map(shortest, numbers)), "hex": " ".join(map(hexadecimal, numbers))}
 
 
 def group_attributes(layout: Layout, parameters: Mapping[str, float]) -> dict[str, str | float]:

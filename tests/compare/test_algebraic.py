@@ -4,11 +4,12 @@ import pickle
 from fractions import Fraction
 
 import pytest
-from flint import arb, ctx
+from flint import arb
 from hypothesis import given
 from hypothesis import strategies as st
 
 from compare.algebraic import Q, enclose, root, root_of
+from reference.precision import ctx
 
 CUBE_ROOT = root(2, 3)
 fractions = st.fractions(min_value=-50, max_value=50, max_denominator=97)

@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 import pytest
-from mpmath import mp
 
 from compare import error_vs_n
 from compare.aspects import conserves
@@ -17,6 +16,7 @@ from compare.methods.multistep import MULTISTEP
 from compare.paths import CycloidCurve, PolarByPsi, PolarByZ
 from reference import Cycloid, PolarBrachistochrone
 from reference.arithmetic import MPMATH, NUMPY
+from reference.precision import mp
 
 if TYPE_CHECKING:
     from reference.problem import Problem

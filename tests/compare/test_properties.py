@@ -5,12 +5,13 @@ from __future__ import annotations
 from math import sqrt
 
 import pytest
-from flint import arb, ctx
+from flint import arb
 
 from compare.algebraic import Q, enclose
 from compare.method import Tableau
 from compare.methods import METHODS, find
 from compare.properties import Stability, used_stages
+from reference.precision import ctx
 
 IMPLICIT = {
     # name: symplectic, symmetric, A-stable, L-stable

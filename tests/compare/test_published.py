@@ -13,7 +13,6 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from mpmath import mp
 
 from compare.__main__ import main
 from compare.lane import Lane
@@ -27,6 +26,7 @@ from compare.published.options import options
 from compare.published.source import figure, figures, sources, tables
 from reference import Pendulum
 from reference.arithmetic import NUMPY
+from reference.precision import mp
 from reference.problems.pendulum.equations import energy
 
 FLOAT64 = precision("float64")

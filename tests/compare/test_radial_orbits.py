@@ -8,8 +8,7 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from flint import arb, ctx
-from mpmath import mp
+from flint import arb
 
 import compare
 from compare.submission.orbit import orbits, remark
@@ -17,6 +16,7 @@ from compare.submission.place import apart
 from compare.submission.radial import RadialOscillation
 from reference import PolarBrachistochrone, Tunnel
 from reference.arithmetic import BALL
+from reference.precision import ctx, mp
 from reference.problems.polar.equations import POINT_MASS
 from reference.problems.polar.taylor import System, equations_of
 from reference.routes import enclosure

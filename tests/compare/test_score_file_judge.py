@@ -9,12 +9,12 @@ from fractions import Fraction
 import heyoka
 import numpy as np
 import pytest
-from mpmath import mp
 
 import compare
 from compare.submission.record import Running
 from compare.submission.show import marked
 from reference import Pendulum
+from reference.precision import mp
 from reference.problem import SeparableProblem
 from reference.problems.cycloid import Cycloid, CycloidalPendulum, Tautochrone
 from reference.problems.descent import Descent

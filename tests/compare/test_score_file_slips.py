@@ -8,12 +8,12 @@ import math
 import h5py
 import numpy as np
 import pytest
-from mpmath import mp
 
 import compare
 from compare.__main__ import main
 from reference import Pendulum
 from reference.names import short
+from reference.precision import mp
 from reference.problems.polar import PolarBrachistochrone
 
 P = Pendulum(1.0)

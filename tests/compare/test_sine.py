@@ -5,9 +5,10 @@ from __future__ import annotations
 import heyoka as hy
 import numpy as np
 import pytest
-from flint import arb, ctx
+from flint import arb
 
 from compare.sine import sine
+from reference.precision import ctx
 
 X = hy.expression("x")
 COMPILED = hy.cfunc([sine(X)], vars=[X], batch_size=8)

@@ -5,13 +5,14 @@ from __future__ import annotations
 from typing import Any
 
 import pytest
-from flint import arb, ctx
+from flint import arb
 
 from compare.algebraic import enclose
 from compare.method import Method, Splitting
 from compare.methods import METHODS, find
 from reference.arithmetic import BALL
 from reference.dual import Dual, DualArithmetic
+from reference.precision import ctx
 
 BITS = 300
 DUALS = DualArithmetic(BALL, 2)

@@ -7,7 +7,7 @@ import re
 from fractions import Fraction
 
 import pytest
-from flint import arb, ctx
+from flint import arb
 
 from compare.__main__ import main
 from compare.algebraic import Q, enclose, root
@@ -15,6 +15,7 @@ from compare.description import describe
 from compare.methods import METHODS, find
 from compare.numerals import closed_form, decimal_form, latex_form
 from compare.tableau_text import FORMATS, render
+from reference.precision import ctx
 
 RK4 = """\
   0 |

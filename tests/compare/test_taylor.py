@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import heyoka as hy
 import numpy as np
 import pytest
-from flint import arb, ctx
+from flint import arb
 
 import compare
 from compare.algebraic import Q, enclose
@@ -37,6 +37,7 @@ from reference import (
 from reference.arithmetic import BALL, Heyoka
 from reference.dual import DualArithmetic
 from reference.jet import jet
+from reference.precision import ctx
 
 if TYPE_CHECKING:
     from compare.contract import State

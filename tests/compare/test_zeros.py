@@ -8,7 +8,7 @@ from math import ceil
 from typing import Any
 
 import pytest
-from flint import arb, ctx
+from flint import arb
 from printed import (
     DOP853_ERROR5,
     DOP853_MATRIX,
@@ -29,6 +29,7 @@ from compare.methods.tsitouras import TSITOURAS54
 from compare.precision import precision
 from compare.refined import proven_composition
 from compare.zeros import Linear, Zero, ZeroError, unit
+from reference.precision import ctx
 
 BITS = 320
 

@@ -6,8 +6,9 @@ import math
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
-from flint import arb, ctx, fmpq
-from mpmath import mp
+from flint import arb, fmpq
+
+from reference.precision import ctx, mp
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
-from mpmath import mp
+from reference.precision import mp
 
 
 def number(x: Fraction | float) -> Any:

@@ -13,7 +13,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from mpmath import mp
+from reference.precision import mp
 
 __all__ = ["arc_length", "passage", "place"]
 

@@ -10,8 +10,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from flint import acb, arb, ctx, fmpq
-from mpmath import mp
+from flint import acb, arb, fmpq
+
+from reference.precision import ctx, mp
 
 if TYPE_CHECKING:
     from fractions import Fraction

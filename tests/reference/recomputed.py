@@ -13,10 +13,10 @@ from typing import TYPE_CHECKING, Any
 from independent import agm_period, condition_number, general_state, released_state
 from independent_cycloid import Descent, swing
 from independent_descent import arc_length, passage, place
-from mpmath import mp
 from recomputed_central import CENTRAL
 
 from reference.groups.descent import CURVE
+from reference.precision import mp
 
 if TYPE_CHECKING:
     from collections.abc import Callable

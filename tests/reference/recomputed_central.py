@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from flint import ctx
 from independent import fraction
 from independent_polar import Amplitude, ball, rolled
-from mpmath import mp
+
+from reference.precision import ctx, mp
 
 if TYPE_CHECKING:
     from collections.abc import Callable

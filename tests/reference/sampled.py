@@ -6,8 +6,9 @@ from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
 from independent import correct_limbs, fraction
-from mpmath import mp
 from recomputed import RECOMPUTED
+
+from reference.precision import mp
 
 if TYPE_CHECKING:
     import random

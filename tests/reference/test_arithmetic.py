@@ -6,13 +6,13 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
-from flint import acb, arb, arb_series, ctx
-from mpmath import mp
+from flint import acb, arb, arb_series
 
 from reference.arithmetic import BALL, MPMATH, NUMPY, ComplexBall, Heyoka
 from reference.balls import SERIES
 from reference.compiler import hy
 from reference.dual import DualArithmetic, with_slope
+from reference.precision import ctx, mp
 
 FUNCTIONS = ("sin", "cos", "tan", "asin", "acos", "atan", "sinh", "cosh", "tanh", "exp", "log", "sqrt")
 POINT = Fraction(3, 8)

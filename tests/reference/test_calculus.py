@@ -3,10 +3,10 @@
 from fractions import Fraction
 
 import pytest
-from flint import arb, ctx
-from mpmath import mp
+from flint import arb
 
 from reference.arithmetic import BALL, MPMATH, ComplexBall
+from reference.precision import ctx, mp
 
 BITS = 400
 

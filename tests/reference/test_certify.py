@@ -7,11 +7,11 @@ from fractions import Fraction
 
 import pytest
 from independent import correct_limbs, fraction
-from mpmath import mp
 
 from reference import Certified, Pendulum
 from reference.certify import DisagreementError, agreement
 from reference.limbs import WorkBoundError
+from reference.precision import mp
 
 
 def period_to(bits: int):

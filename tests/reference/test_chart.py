@@ -8,12 +8,12 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
-from flint import ctx
 from independent import correct_limbs, landen_states
 
 from reference import Pendulum
 from reference.arithmetic import BALL
 from reference.limbs import of_ball, to_limbs
+from reference.precision import ctx
 from reference.problems.pendulum.chart import MANY, Chart
 from reference.routes import enclosure
 

@@ -10,14 +10,13 @@ from fractions import Fraction
 import heyoka as hy
 import numpy as np
 import pytest
-from flint import ctx
 from independent import correct_limbs, fraction
 from independent_cycloid import Descent, number
-from mpmath import mp
 
 from reference.arithmetic import BALL, MPMATH, NUMPY, Heyoka
 from reference.certify import ROUTES, agreement
 from reference.limbs import WorkBoundError
+from reference.precision import ctx, mp
 from reference.problems.cycloid import Cycloid, CycloidArc
 from reference.problems.cycloid.equations import arc_acceleration, arc_energy, depth, point_below_cusp, run
 from reference.problems.cycloid.neighbours import excess, slowness

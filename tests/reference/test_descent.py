@@ -9,11 +9,11 @@ import numpy as np
 import pytest
 from independent import correct_limbs, fraction
 from independent_descent import arc_length, passage, place
-from mpmath import mp
 
 from reference.arithmetic import NUMPY
 from reference.certify import agreement
 from reference.limbs import WorkBoundError
+from reference.precision import mp
 from reference.problems.descent import RACE, Descent
 
 NAMES = [curve.name for curve in RACE]

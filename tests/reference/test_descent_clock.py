@@ -6,12 +6,12 @@ import random
 from fractions import Fraction
 
 import pytest
-from flint import acb, arb, arb_series, ctx
+from flint import acb, arb, arb_series
 from independent import fraction
 from independent_descent import arc_length, passage
-from mpmath import mp
 
 from reference.balls import BALL, SERIES, ComplexBall
+from reference.precision import ctx, mp
 from reference.problems.descent import RACE, Descent
 from reference.problems.descent.chebyshev import ChebyshevClock
 from reference.problems.descent.clock import REACH, NoChartError, Primitive, arc, clock, pieces

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import pytest
-from flint import arb, ctx
+from flint import arb
 from independent import ball
-from mpmath import mp
 
 from reference.arithmetic import BALL, MPMATH
 from reference.dual import DualArithmetic
 from reference.elliptic import BallElliptic, MpmathElliptic
+from reference.precision import ctx, mp
 
 MODULI = (0.05, 0.6, 0.999)
 NAMES = ("sn", "cn", "dn", "epsilon", "first", "second")

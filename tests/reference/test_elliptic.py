@@ -5,11 +5,11 @@ from __future__ import annotations
 import math
 
 import pytest
-from flint import arb, ctx
+from flint import arb
 from independent import ball, fraction
-from mpmath import mp
 
 from reference.elliptic import BallElliptic, MpmathElliptic, sine_polynomial
+from reference.precision import ctx, mp
 
 ANGLES = (1e-3, 0.5, math.pi / 2, 3.0, math.pi - 1e-6)
 """theta0 of the modulus k = sin(theta0/2)."""

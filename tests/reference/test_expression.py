@@ -7,13 +7,12 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
-from flint import ctx
-from mpmath import mp
 
 from reference.arithmetic import BALL, MPMATH, NUMPY, ComplexBall, Heyoka
 from reference.compiler import hy
 from reference.dual import with_slope
 from reference.expression import FUNCTIONS, MAX_DEPTH, MAX_LENGTH, Expression
+from reference.precision import ctx, mp
 
 FORMULAS = {
     "2*(x/pi)**4": lambda x: 2 * (x / math.pi) ** 4,

@@ -7,13 +7,14 @@ from itertools import pairwise
 from typing import Any
 
 import pytest
-from flint import arb, arb_series, ctx
+from flint import arb, arb_series
 
 from reference.arithmetic import BALL, NUMPY
 from reference.balls import SERIES
 from reference.dual import DualArithmetic, with_slope
 from reference.expression import FUNCTIONS, Expression
 from reference.jet import Series, SeriesArithmetic, jet
+from reference.precision import ctx
 
 ORDER = 12
 COEFFICIENTS = (

@@ -9,10 +9,10 @@ from fractions import Fraction
 import numpy as np
 import pytest
 from independent import correct_limbs, fraction, general_state
-from mpmath import mp
 
 from reference import Pendulum
 from reference.certify import agreement
+from reference.precision import mp
 from reference.problems.pendulum.quantities import SERVED
 
 STARTS = {

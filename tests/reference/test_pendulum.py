@@ -10,13 +10,12 @@ from fractions import Fraction
 import heyoka as hy
 import numpy as np
 import pytest
-from flint import ctx
 from independent import correct_limbs, fraction, landen_states, mpmath_states
-from mpmath import mp
 
 from reference import Pendulum
 from reference.arithmetic import BALL, MPMATH, NUMPY, Heyoka
 from reference.limbs import WorkBoundError
+from reference.precision import ctx, mp
 from reference.problems.pendulum.equations import angular_acceleration, energy, energy_above_rest
 from reference.problems.pendulum.events import MAX_EVENTS
 

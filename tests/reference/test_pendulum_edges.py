@@ -7,11 +7,11 @@ from fractions import Fraction
 
 import pytest
 from independent import agm_period, condition_number, correct_limbs, fraction, general_state, released_state
-from mpmath import mp
 
 from reference import Pendulum
 from reference.arithmetic import MPMATH
 from reference.limbs import WorkBoundError
+from reference.precision import mp
 
 G, LATE = 9.81, 2.0**30
 OVER = 2 * math.sqrt(G) * (1 + 1e-12)

@@ -9,11 +9,11 @@ from fractions import Fraction
 import numpy as np
 import pytest
 from independent import correct_limbs, fraction
-from mpmath import mp
 
 from reference import Pendulum
 from reference.arithmetic import MPMATH
 from reference.certify import agreement
+from reference.precision import mp
 from reference.problems.pendulum import LinearPendulum
 
 PENDULUMS = (

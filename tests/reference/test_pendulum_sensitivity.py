@@ -9,10 +9,10 @@ from fractions import Fraction
 import numpy as np
 import pytest
 from independent import agm_period, condition_number, correct_limbs, fraction, released_state
-from mpmath import mp
 
 from reference import Pendulum
 from reference.certify import agreement
+from reference.precision import mp
 
 BITS = 3 * 159 + 100
 TIMES = [0.7, 3.1, 9.5]

@@ -8,11 +8,11 @@ from itertools import pairwise
 
 import pytest
 from independent import agm_period, correct_limbs, fraction, released_state
-from mpmath import mp
 
 from reference import Pendulum
 from reference.arithmetic import MPMATH
 from reference.certify import agreement
+from reference.precision import mp
 from reference.problems.pendulum import LindstedtMotion, PendulumSeries, contour, series
 
 ORDERS = (0, 1, 2, 5, 8)

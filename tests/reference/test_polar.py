@@ -9,14 +9,14 @@ from fractions import Fraction
 import heyoka as hy
 import numpy as np
 import pytest
-from flint import arb, ctx
+from flint import arb
 from independent import correct_limbs, fraction
 from independent_polar import BITS, Amplitude, ball, complete
-from mpmath import mp
 
 from reference.arithmetic import BALL, MPMATH, NUMPY, Heyoka
 from reference.certify import agreement
 from reference.limbs import WorkBoundError
+from reference.precision import ctx, mp
 from reference.problems.polar import PolarBrachistochrone
 from reference.problems.polar.equations import POINT_MASS
 from reference.problems.polar.series import surface_coefficients

@@ -8,12 +8,13 @@ from fractions import Fraction
 from itertools import pairwise
 
 import pytest
-from flint import arb, ctx
+from flint import arb
 from independent import correct_limbs, fraction
 from independent_polar import Amplitude, ball
 
 from reference.arithmetic import BALL
 from reference.limbs import WorkBoundError
+from reference.precision import ctx
 from reference.problems.polar import PolarBrachistochrone
 from reference.problems.polar.boundary import _approach
 from reference.problems.tunnel import Tunnel

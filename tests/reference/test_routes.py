@@ -6,15 +6,14 @@ import math
 from fractions import Fraction
 
 import pytest
-from flint import ctx
 from hypothesis import given
 from hypothesis import strategies as st
 from independent import fraction, mpmath_states
-from mpmath import mp
 
 from reference import Pendulum
 from reference.certify import REQUIRED_DIGITS, ROUTES, agreement
 from reference.limbs import interval
+from reference.precision import ctx, mp
 from reference.routes import enclosure, quadrature, taylor
 
 ROWS_OF_TIME = ("state", "sensitivity")

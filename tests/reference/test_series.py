@@ -5,10 +5,10 @@ from __future__ import annotations
 from fractions import Fraction as Q
 
 import pytest
-from mpmath import mp
 
 from reference import Pendulum
 from reference.arithmetic import MPMATH
+from reference.precision import mp
 from reference.problems.pendulum.series import lindstedt, period_series
 
 

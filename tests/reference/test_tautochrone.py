@@ -12,10 +12,10 @@ import numpy as np
 import pytest
 from independent import correct_limbs, fraction
 from independent_cycloid import number, swing
-from mpmath import mp
 
 from reference.arithmetic import MPMATH, NUMPY, Heyoka
 from reference.certify import ROUTES, agreement
+from reference.precision import mp
 from reference.problems.cycloid import Cycloid, CycloidalPendulum, Tautochrone
 from reference.problems.cycloid.equations import angular_acceleration, arc_energy, swing_energy
 

@@ -11,10 +11,10 @@ import numpy as np
 import pytest
 from independent import correct_limbs, fraction
 from independent_polar import BITS, number, rolled
-from mpmath import mp
 
 from reference.arithmetic import MPMATH, NUMPY, Heyoka
 from reference.certify import agreement
+from reference.precision import mp
 from reference.problems.polar import PolarBrachistochrone
 from reference.problems.tunnel import Tunnel
 from reference.problems.tunnel.equations import UNIFORM_BALL

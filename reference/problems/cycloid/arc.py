@@ -6,10 +6,9 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any, ClassVar
 
-from mpmath import mp
-
 from reference.arithmetic import MPMATH, Arithmetic, EllipticArithmetic
 from reference.exact import as_number, exact
+from reference.precision import mp
 from reference.problem import ClosedForm, Problem, Row
 from reference.problems.cycloid.equations import point_below_cusp, run
 from reference.problems.cycloid.quantities import CURVE_ROWS, accept, exponent, positive_number

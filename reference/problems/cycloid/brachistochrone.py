@@ -14,8 +14,7 @@ from __future__ import annotations
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
-from mpmath import mp
-
+from reference.precision import mp
 from reference.problem import ClosedForm
 from reference.problems.cycloid.equations import arc_frequency, point_below_cusp
 from reference.problems.cycloid.neighbours import excess, slowness

@@ -5,13 +5,12 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import cached_property
 from typing import TYPE_CHECKING, Any, ClassVar
-
-from mpmath import mp
 
 from reference.arithmetic import MPMATH, Arithmetic, CalculusArithmetic
 from reference.exact import as_number, exact
+from reference.once import cached_property
+from reference.precision import mp
 from reference.problem import APART, Row, SeparableProblem
 from reference.problems.cycloid.brachistochrone import Brachistochrone, QuadratureBrachistochrone
 from reference.problems.cycloid.equations import arc_acceleration, arc_energy

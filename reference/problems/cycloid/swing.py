@@ -12,8 +12,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from mpmath import mp
-
+from reference.precision import mp
 from reference.problem import ClosedForm
 from reference.problems.cycloid.equations import arc_energy, arc_frequency, point_from_bottom, swing_energy
 from reference.routes import quadrature

@@ -4,14 +4,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import cached_property
 from typing import TYPE_CHECKING, Any, ClassVar
-
-from mpmath import mp
 
 from reference.arithmetic import BALL, MPMATH, Arithmetic, EllipticArithmetic
 from reference.exact import as_number, exact
 from reference.limbs import Interval, interval, ziv
+from reference.once import cached_property
+from reference.precision import mp
 from reference.problem import APART, Problem, Row, SeparableProblem
 from reference.problems.cycloid.equations import (
     angular_acceleration,

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import cached_property, lru_cache
+from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
-from mpmath import mp
-
 from reference.arithmetic import MPMATH
+from reference.once import cached_property
+from reference.precision import mp
 from reference.problems.cycloid.equations import arc_acceleration, depth, point_from_bottom
 from reference.problems.cycloid.neighbours import slowness
 from reference.routes.quadrature import to_fraction

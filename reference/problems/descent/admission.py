@@ -10,10 +10,11 @@ from fractions import Fraction
 from functools import lru_cache
 from typing import TYPE_CHECKING
 
-from flint import acb, arb, ctx
+from flint import acb, arb
 
 from reference.balls import BALL, ComplexBall
 from reference.names import short
+from reference.precision import ctx
 from reference.problems.descent.clock import NoChartError, pieces
 from reference.problems.descent.curves import Curve, FormulaCurve
 from reference.problems.descent.exactly import exactly

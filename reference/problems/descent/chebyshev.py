@@ -9,12 +9,12 @@ are below the working precision.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property, lru_cache
+from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
-from mpmath import mp
-
 from reference.arithmetic import MPMATH
+from reference.once import cached_property
+from reference.precision import mp
 from reference.problems.descent.equations import slowness
 
 if TYPE_CHECKING:

@@ -14,9 +14,10 @@ from fractions import Fraction
 from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
-from flint import acb, arb, arb_poly, arb_series, ctx
+from flint import acb, arb, arb_poly, arb_series
 
 from reference.balls import BALL, SERIES, ComplexBall
+from reference.precision import ctx
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -13,7 +13,9 @@ from typing import TYPE_CHECKING, Any
 from reference.arithmetic import MPMATH
 from reference.dual import with_slope
 from reference.expression import Expression
+from reference.limbs import BINARY64_BITS
 from reference.names import short, unknown
+from reference.precision import mp
 from reference.problems.descent.equations import acceleration
 
 if TYPE_CHECKING:
@@ -72,7 +74,8 @@ class FormulaCurve(Curve):
         return repr(self.name) if named else f"{self.name!r}, start={self.start!r}, end={self.end!r}"
 
     def spelled(self, w: Fraction) -> str:
-        return f"{self.variable} = {float(self.parameter(MPMATH, MPMATH.number(w))):.6g}"
+        with mp.workprec(BINARY64_BITS):
+            return f"{self.variable} = {float(self.parameter(MPMATH, MPMATH.number(w))):.6g}"
 
     def parameter(self, m: ElementaryArithmetic, w: Any) -> Any:
         """p at w."""

@@ -9,11 +9,9 @@ from __future__ import annotations
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
-from flint import ctx
-from mpmath import mp
-
 from reference.arithmetic import MPMATH
 from reference.balls import BALL
+from reference.precision import ctx, mp
 from reference.problem import ClosedForm
 from reference.problems.descent.chebyshev import chebyshev_clock
 from reference.problems.descent.clock import arc, clock

@@ -4,10 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import cached_property
 from typing import TYPE_CHECKING, Any, ClassVar
-
-from flint import arb, ctx
 
 from reference.arithmetic import NUMPY
 from reference.balls import BALL
@@ -15,6 +12,8 @@ from reference.dual import DualArithmetic
 from reference.exact import as_number, exact
 from reference.limbs import ziv
 from reference.names import short
+from reference.once import cached_property
+from reference.precision import ctx
 from reference.problem import APART, ClosedForm, Problem, Row
 from reference.problems.descent.admission import admitted
 from reference.problems.descent.curves import Curve, CycloidByArc, lagrange, spelled_curve
@@ -26,6 +25,8 @@ from reference.problems.descent.taylor import TaylorDescent
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
+
+    from flint import arb
 
     from reference.certify import Certified
     from reference.problems.descent.slide import Slide

@@ -12,13 +12,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import cached_property
 from typing import TYPE_CHECKING, Any
-
-from flint import ctx
 
 from reference.balls import BALL
 from reference.dual import with_slope
+from reference.once import cached_property
+from reference.precision import ctx
 from reference.problems.descent.curves import CycloidByArc, FormulaCurve
 from reference.problems.descent.exactly import SURD, exactly, known
 from reference.problems.descent.surds import UNKNOWN, Surd, exact_root, surd

@@ -10,10 +10,11 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from flint import arb, ctx
+from flint import arb
 
 from reference.arithmetic import BALL
 from reference.elliptic import sine_polynomial
+from reference.precision import ctx
 from reference.problems.pendulum.motions import Rotation, addition
 
 if TYPE_CHECKING:
@@ -30,6 +31,7 @@ WIDEST = 1 / 8
 """The largest half-width of a node's surroundings in the argument v of Jacobi's functions of a modulus below 1.
 
 theta/2 changes by no more than v there, so that a node's arctangent keeps its branch; sn v converges for |v| < pi/2.
+A half-width proven to be below twice as much serves as well.
 """
 SPARE_BITS = 12
 """Bits that the arithmetic of one state may lose."""
@@ -54,7 +56,8 @@ def chart(form: Libration | Rotation, count: int, bits: int) -> Chart | None:
     needed = math.ceil(float(form.period * form.w * _scale(form)) / (2 * WIDEST))
     if count < max(MANY, 3 * needed):
         return None
-    return Chart(form, max(needed, count // TIMES_A_NODE), bits)
+    found = Chart(form, max(needed, count // TIMES_A_NODE), bits)
+    return found if found.half_width < 2 * WIDEST else None
 
 
 def _scale(form: Libration | Rotation) -> arb:
@@ -71,8 +74,8 @@ class Chart:
     def __init__(self, form: Libration | Rotation, nodes: int, bits: int) -> None:
         self._form, self._nodes, self._bits = form, nodes, bits
         self._pace = 2 * nodes / form.period
-        half_width = form.w * _scale(form) / self._pace
-        self._sine = sine_polynomial(form.elliptic.k, half_width, bits) * (1 / _scale(form))
+        self.half_width = form.w * _scale(form) / self._pace
+        self._sine = sine_polynomial(form.elliptic.k, self.half_width, bits) * (1 / _scale(form))
         self._twice_w, self._square = 2 * form.w, form.modulus**2
         self._advance = 2 * form.direction * arb.pi() if isinstance(form, Rotation) else None
         self._known: dict[int, Node] = {}

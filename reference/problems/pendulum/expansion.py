@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import cached_property
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from reference.arithmetic import MPMATH
 from reference.exact import as_number, exact
+from reference.once import cached_property
 from reference.problem import ClosedForm, Problem, Row
 from reference.problems.pendulum import contour, series
 from reference.problems.pendulum.problem import Pendulum

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import cached_property
 from typing import TYPE_CHECKING, Any, ClassVar
-
-from mpmath import mp
 
 from reference.arithmetic import MPMATH, Arithmetic, EllipticArithmetic
 from reference.exact import as_number, exact
+from reference.limbs import BINARY64_BITS
+from reference.once import cached_property
+from reference.precision import mp
 from reference.problem import APART, Row, SeparableProblem
 from reference.problems.pendulum.motions import Rest
 from reference.problems.pendulum.quantities import LINEAR_ROWS
@@ -103,7 +103,8 @@ class LinearPendulum(SeparableProblem):
 
     def rate(self) -> float:
         """sqrt(g/l)."""
-        return float(mp.sqrt(MPMATH.number(self.g / self.length)))
+        with mp.workprec(BINARY64_BITS):
+            return float(mp.sqrt(MPMATH.number(self.g / self.length)))
 
     def neighbour(self, rounding: Callable[[Fraction], Fraction], epsilon: Fraction) -> LinearPendulum:
         """The pendulum whose start is nearer to rest by 2^-36, or by 16 roundings."""

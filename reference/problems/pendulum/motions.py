@@ -14,9 +14,8 @@ from __future__ import annotations
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
-from mpmath import mp
-
 from reference.dual import DualArithmetic
+from reference.precision import mp
 from reference.problem import ClosedForm
 from reference.problems.pendulum.equations import condition, energy
 from reference.routes import quadrature

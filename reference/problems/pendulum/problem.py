@@ -5,15 +5,13 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import cached_property
 from typing import TYPE_CHECKING, Any, ClassVar
-
-from flint import arb, ctx
-from mpmath import mp
 
 from reference.arithmetic import BALL, MPMATH, Arithmetic, EllipticArithmetic
 from reference.exact import as_number, exact
-from reference.limbs import ziv
+from reference.limbs import BINARY64_BITS, ziv
+from reference.once import cached_property
+from reference.precision import ctx, mp
 from reference.problem import APART, Row, SeparableProblem
 from reference.problems.pendulum.chart import MANY, Chart, chart
 from reference.problems.pendulum.equations import angular_acceleration, energy_above_rest
@@ -24,6 +22,8 @@ from reference.problems.pendulum.taylor import TAYLOR_RADIANS, TaylorMotion
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
+
+    from flint import arb
 
     from reference.certify import Certified
     from reference.problems.pendulum.approximations import LindstedtSolution, PeriodSeries
@@ -152,7 +152,8 @@ class Pendulum(SeparableProblem):
 
     def rate(self) -> float:
         """sqrt(g/l): |d(omega')/d(theta)| <= g/l."""
-        return float(mp.sqrt(MPMATH.number(self.g / self.length)))
+        with mp.workprec(BINARY64_BITS):
+            return float(mp.sqrt(MPMATH.number(self.g / self.length)))
 
     def neighbour(self, rounding: Callable[[Fraction], Fraction], epsilon: Fraction) -> Pendulum:
         """The pendulum whose start is nearer to rest by 2^-36 of its way to 0 or pi, or by 16 roundings."""

@@ -19,12 +19,12 @@ from functools import lru_cache
 from itertools import islice
 from typing import TYPE_CHECKING, Any
 
-from flint import arb, ctx
-from mpmath import mp
+from flint import arb
 
 from reference.arithmetic import BALL
 from reference.exact import as_number
 from reference.limbs import WorkBoundError, ziv
+from reference.precision import ctx, mp
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator

@@ -24,12 +24,13 @@ Nothing is lost as z0 -> 1, and half of z0's own digits as z0 -> 0.
 
 from __future__ import annotations
 
-from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
-from flint import acb, arb, ctx
+from flint import acb, arb
 
 from reference.calculus import ball_zero, enclosed_zero
+from reference.once import cached_property
+from reference.precision import ctx
 from reference.problems.polar.equations import POINT_MASS
 from reference.problems.polar.extremal import Extremal
 from reference.problems.polar.panels import Schedule

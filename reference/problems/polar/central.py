@@ -5,14 +5,14 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import cached_property, lru_cache, partial
+from functools import lru_cache, partial
 from typing import TYPE_CHECKING, Any, ClassVar
-
-from flint import ctx
-from mpmath import mp
 
 from reference.arithmetic import BALL, MPMATH
 from reference.exact import as_number, exact
+from reference.limbs import BINARY64_BITS
+from reference.once import cached_property
+from reference.precision import ctx, mp
 from reference.problem import Problem, Row
 from reference.problems.polar.boundary import end_of, exponent_near, lowest_point
 from reference.problems.polar.numerical import Numerical
@@ -161,7 +161,8 @@ class CentralBrachistochrone(Problem):
 
     def rate(self) -> float:
         """The root of a bound on |dz''/dz| along the path."""
-        return float(mp.sqrt(MPMATH.number(self.field.rate_squared(self._lowest()))))
+        with mp.workprec(BINARY64_BITS):
+            return float(mp.sqrt(MPMATH.number(self.field.rate_squared(self._lowest()))))
 
     def closed_form(self, m: Any) -> Extremal:
         """The closed form in balls; in mpmath the form by numerical integration."""

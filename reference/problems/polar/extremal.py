@@ -9,9 +9,9 @@ from __future__ import annotations
 
 import math
 from fractions import Fraction
-from functools import cached_property
 from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
+from reference.once import cached_property
 from reference.problem import ClosedForm
 from reference.problems.polar.optimality import chord_time, neighbour_excess
 from reference.problems.polar.panels import panels_of

@@ -7,14 +7,15 @@ from __future__ import annotations
 
 import cmath
 import math
-from functools import cached_property, lru_cache
+from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
-from mpmath import mp
 from mpmath.calculus.quadrature import GaussLegendre
 
 from reference.arithmetic import MPMATH
 from reference.dual import DualArithmetic
+from reference.once import cached_property
+from reference.precision import mp
 from reference.problems.polar.extremal import Extremal
 from reference.problems.polar.optimality import chord_geometry, neighbour_rates
 from reference.problems.polar.panels import Panels, Schedule, panels_of

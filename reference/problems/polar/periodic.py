@@ -9,10 +9,10 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Any
 
-from flint import acb, arb, ctx
-from mpmath import mp
+from flint import acb, arb
 
 from reference.arithmetic import BALL, ComplexBall
+from reference.precision import ctx, mp
 
 if TYPE_CHECKING:
     from collections.abc import Callable

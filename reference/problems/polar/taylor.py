@@ -5,12 +5,12 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import cached_property, lru_cache
+from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
-from mpmath import mp
-
 from reference.arithmetic import MPMATH
+from reference.once import cached_property
+from reference.precision import mp
 from reference.problems.polar.optimality import chord_geometry
 from reference.routes.quadrature import to_fraction
 from reference.routes.taylor import Flow

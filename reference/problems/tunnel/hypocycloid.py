@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
+from reference.once import cached_property
 from reference.problems.polar.extremal import Extremal
 from reference.problems.tunnel.equations import UNIFORM_BALL
 
