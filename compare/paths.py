@@ -11,19 +11,19 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any, ClassVar
 
-from reference.domain import Reals
 from reference.exact import as_number, exact
 from reference.once import cached_property
 from reference.problem import APART, ClosedForm, Problem, Quantity, Row
 from reference.problems.cycloid.arc import CycloidArc
 from reference.problems.polar import PolarBrachistochrone
 from reference.problems.polar.equations import POINT_MASS
+from reference.row_domains import Reals
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
     from reference.arithmetic import Arithmetic
-    from reference.domain import Domain
+    from reference.row_domains import Domain
 
 __all__ = ["CycloidCurve", "PolarByPsi", "PolarByZ"]
 

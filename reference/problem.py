@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 
     from reference.arithmetic import Arithmetic
     from reference.constants import Constant
-    from reference.domain import Domain
+    from reference.row_domains import Domain
 
 __all__ = ["APART", "ClosedForm", "Problem", "Quantity", "Row", "SeparableProblem", "Solution"]
 

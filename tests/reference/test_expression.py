@@ -10,10 +10,10 @@ import pytest
 
 from reference.arithmetic import BALL, MPMATH, NUMPY, ComplexBall, Heyoka
 from reference.compiler import hy
-from reference.domains import real
 from reference.dual import with_slope
 from reference.expression import FUNCTIONS, MAX_DEPTH, MAX_LENGTH, Expression
 from reference.precision import ctx, mp
+from reference.real_domains import real
 
 FORMULAS = {
     "2*(x/pi)**4": lambda x: 2 * (x / math.pi) ** 4,

@@ -18,7 +18,7 @@ from reference.routes import quadrature
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from reference.domain import Domain
+    from reference.row_domains import Domain
 
 __all__ = ["CycloidArc"]
 

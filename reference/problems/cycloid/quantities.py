@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from fractions import Fraction
 
-from reference.domain import ANGLE, FRACTION, ONCE, TIME, Reals
 from reference.exact import as_number
 from reference.problem import Quantity, Row
+from reference.row_domains import ANGLE, FRACTION, ONCE, TIME, Reals
 
 __all__ = ["CURVE_ROWS", "DESCENT_ROWS", "HEIGHT", "PENDULUM_ROWS", "SWING_ROWS", "exponent", "positive_number"]
 

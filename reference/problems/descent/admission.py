@@ -14,7 +14,6 @@ from typing import TYPE_CHECKING
 from flint import acb, arb
 
 from reference.balls import BALL
-from reference.domains import OutsideDomainError, real
 from reference.names import short
 from reference.precision import ctx
 from reference.problems.descent.analytic import ANALYTIC
@@ -23,6 +22,7 @@ from reference.problems.descent.curves import Curve, FormulaCurve
 from reference.problems.descent.exactly import exactly
 from reference.problems.descent.reality import Unreal, unreal
 from reference.problems.descent.slide import Slide
+from reference.real_domains import OutsideDomainError, real
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 from reference.arithmetic import NUMPY
 from reference.balls import BALL
-from reference.domain import Domain, Reals
 from reference.dual import DualArithmetic
 from reference.exact import as_number, exact
 from reference.limbs import ziv
@@ -23,6 +22,7 @@ from reference.problems.descent.forms import BallDescent, CycloidDescent, Quadra
 from reference.problems.descent.quantities import ROWS
 from reference.problems.descent.rational import Rational
 from reference.problems.descent.taylor import TaylorDescent
+from reference.row_domains import Domain, Reals
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence

@@ -2,8 +2,8 @@
 
 from fractions import Fraction
 
-from reference.domain import FRACTION, ONCE, Reals
 from reference.problem import Quantity, Row
+from reference.row_domains import FRACTION, ONCE, Reals
 
 __all__ = ["ROWS"]
 

@@ -1,8 +1,8 @@
 """What can be asked of the pendulum: names, units and definitions, w = sqrt(g/length) throughout."""
 
-from reference.domain import INDEX, ONCE, TIME, Whole
 from reference.problem import Quantity, Row
 from reference.problems.pendulum.series import MAX_ORDER
+from reference.row_domains import INDEX, ONCE, TIME, Whole
 
 __all__ = ["LINDSTEDT_ROWS", "LINEAR_ROWS", "ROWS", "SERIES_ROWS", "SERVED"]
 

@@ -23,10 +23,10 @@ from typing import TYPE_CHECKING, Any
 from flint import arb
 
 from reference.arithmetic import BALL
-from reference.domain import Domain
 from reference.exact import as_number
 from reference.limbs import WorkBoundError, ziv
 from reference.precision import ctx, mp
+from reference.row_domains import Domain
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator

@@ -29,8 +29,8 @@ if TYPE_CHECKING:
     from reference.arithmetic import Arithmetic
     from reference.certify import Certified
     from reference.constants import Constant
-    from reference.domain import Domain
     from reference.problems.polar.extremal import End, Extremal, Field
+    from reference.row_domains import Domain
 
 __all__ = ["CentralBrachistochrone"]
 

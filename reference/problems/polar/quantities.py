@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from fractions import Fraction
 
-from reference.domain import ONCE, TIME, Reals
 from reference.problem import Quantity, Row
+from reference.row_domains import ONCE, TIME, Reals
 
 __all__ = ["ROWS", "Definitions", "Z", "rows_of"]
 

@@ -8,8 +8,8 @@ import pytest
 from flint import arb, ctx
 
 from reference.balls import BALL
-from reference.domains import OutsideDomainError, real
 from reference.expression import Expression
+from reference.real_domains import OutsideDomainError, real
 
 CERTAIN = {
     "x + acos(2)": "'acos(2)' is the arc cosine of 2",
