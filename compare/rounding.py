@@ -171,7 +171,7 @@ def _widening(excess: float) -> float:
 def _floors(
     own: Sequence[int], sizes: Sequence[float], bounds: Sequence[np.ndarray], lost: Sequence[bool]
 ) -> Iterator[tuple[int, bool]]:
-    """Whether each of one problem's courses, by N, is rounding; a step that is too large is not, whatever it does to roundings."""
+    """Whether each of one problem's courses, by N, is rounding; a step that is too large is not."""
     floor = False
     for i in own:
         floor = floor or (not lost[i] and sizes[i] <= FLOOR_FACTOR * bounds[i][0])
