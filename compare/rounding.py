@@ -171,9 +171,8 @@ def _widening(excess: float) -> float:
 def _floors(
     own: Sequence[int], sizes: Sequence[float], bounds: Sequence[np.ndarray], lost: Sequence[bool]
 ) -> Iterator[tuple[int, bool]]:
-    """Whether each of one problem's courses, by N, is rounding; one that is lost says nothing of finer ones."""
+    """Whether each of one problem's courses, by N, is rounding; a step that is too large is not."""
     floor = False
     for i in own:
-        own_floor = sizes[i] <= FLOOR_FACTOR * bounds[i][0]
-        floor = floor or (own_floor and not lost[i])
-        yield i, bool(floor or own_floor)
+        floor = floor or (not lost[i] and sizes[i] <= FLOOR_FACTOR * bounds[i][0])
+        yield i, bool(floor)
