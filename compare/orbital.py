@@ -13,10 +13,11 @@ from functools import lru_cache
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
-from flint import arb, ctx
+from flint import arb
 
 from compare.submission.orbit import orbits
 from reference.arithmetic import BALL
+from reference.precision import ctx
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

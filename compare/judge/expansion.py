@@ -10,10 +10,10 @@ from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from mpmath import mp
 
 from reference.arithmetic import MPMATH
 from reference.jet import Series, SeriesArithmetic
+from reference.precision import mp
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -11,13 +11,13 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from mpmath import mp
 
 from compare.judge.engine import Lanes, trial_states
 from compare.judge.expansion import Expansion, Expansions
 from compare.judge.field import Exhausted, MisuseError
 from reference.arithmetic import MPMATH
 from reference.jet import jet
+from reference.precision import mp
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

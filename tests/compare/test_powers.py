@@ -6,7 +6,6 @@ import numpy as np
 import oddities
 import pytest
 import slips
-from mpmath import mp
 
 from compare.judge.candidate import Candidate
 from compare.judge.expansion import Expansion, Expansions, NoSeriesError
@@ -14,6 +13,7 @@ from compare.judge.forms import form_of
 from compare.judge.powers import Powers, lower, powers
 from compare.judge.scene import Frame, Scene
 from reference import Pendulum
+from reference.precision import mp
 
 STILL = Scene(Pendulum(1.0))
 SWINGING = Scene(Pendulum(1.0), Frame(0.5, 2.0))

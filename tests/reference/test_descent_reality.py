@@ -7,9 +7,9 @@ from fractions import Fraction
 from typing import TYPE_CHECKING
 
 import pytest
-from mpmath import mp
 
 from reference.arithmetic import MPMATH
+from reference.precision import mp
 from reference.problems.descent import Descent
 from reference.problems.descent.clock import MAX_DISCS, pieces
 from reference.problems.descent.curves import spelled_curve

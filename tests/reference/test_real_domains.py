@@ -5,10 +5,11 @@ from __future__ import annotations
 from fractions import Fraction
 
 import pytest
-from flint import arb, ctx
+from flint import arb
 
 from reference.balls import BALL
 from reference.expression import Expression
+from reference.precision import ctx
 from reference.real_domains import OutsideDomainError, real
 
 CERTAIN = {
