@@ -18,6 +18,7 @@ __all__ = [
     "bits_of",
     "exact_value",
     "hexadecimal",
+    "in_order",
     "nearest",
     "number_of",
     "parts",
@@ -132,6 +133,14 @@ def unsigned_zeros(values: Any) -> np.ndarray:
     """Numbers, as an array, with +0.0 for every -0.0; those that are no float64 as they are."""
     numbers = np.asarray(values)
     return np.where(numbers.view(np.uint64) == SIGN, 0.0, numbers) if numbers.dtype == np.float64 else numbers
+
+
+def in_order(values: np.ndarray) -> np.ndarray:
+    """Integers in the order of the numbers, and equal where those are; numbers that are no float64 as they are."""
+    if values.dtype != np.float64:
+        return values
+    bits = values.view(np.int64)
+    return np.where(bits < 0, np.iinfo(np.int64).min - bits, bits)
 
 
 def hexadecimal(value: float) -> str:

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from reference.binary64 import hexadecimal, nearest, unsigned_zeros
+from reference.binary64 import hexadecimal, in_order, nearest, unsigned_zeros
 from reference.exact import exact
 from reference.once import cached_property
 
@@ -31,7 +31,8 @@ BLOCK_LENGTH = 2048
 
 def monotonic(values: np.ndarray) -> bool:
     """Whether the numbers strictly rise or strictly fall, as those of a CF coordinate variable must."""
-    return bool((values[1:] > values[:-1]).all() or (values[1:] < values[:-1]).all())
+    keys = in_order(values)
+    return bool((keys[1:] > keys[:-1]).all() or (keys[1:] < keys[:-1]).all())
 
 
 @dataclass(frozen=True)

@@ -13,11 +13,13 @@ from reference.binary64 import (
     bits_of,
     exact_value,
     hexadecimal,
+    in_order,
     nearest,
     number_of,
     parts,
     pattern,
     shortest,
+    unsigned_zeros,
     with_subnormals,
 )
 
@@ -73,3 +75,15 @@ def test_an_array_tells_whether_it_holds_subnormal_numbers(kind):
     info = np.finfo(np.dtype(kind).newbyteorder("="))
     assert not with_subnormals(np.array([0.0, -0.0, 1.5, info.tiny, -info.max], dtype=kind))
     assert with_subnormals(np.array([1.0, -info.smallest_subnormal], dtype=kind))
+
+
+def test_numbers_are_ordered_and_zeros_lose_their_sign_by_their_bits():
+    numbers = np.array([-math.inf, -1e300, -1.0, -5e-324, -0.0, 0.0, 5e-324, 1e-310, 2.0, math.inf])
+    keys = in_order(numbers)
+    assert np.array_equal(keys[1:] > keys[:-1], numbers[1:] > numbers[:-1])
+    assert (keys[4], keys[5]) == (0, 0)
+    unsigned = unsigned_zeros(numbers)
+    assert not np.signbit(unsigned[unsigned == 0]).any()
+    assert np.array_equal(np.delete(unsigned, 4).view(np.int64), np.delete(numbers, 4).view(np.int64))
+    labels = np.arange(3, dtype=np.int32)
+    assert in_order(labels) is labels

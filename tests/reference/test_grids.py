@@ -170,5 +170,5 @@ def test_a_name_that_cannot_be_stored_is_told_before_the_proof(tmp_path, capsys,
     path = tmp_path / name
     path.write_text(GOOD)
     assert main(["build", "--config", str(path), "--out", str(tmp_path / "x.h5")]) == 2
-    assert "a name of printable letters is accepted.\n" in capsys.readouterr().err
+    assert "a printable name that ends with .toml is accepted.\n" in capsys.readouterr().err
     assert [found.name for found in tmp_path.iterdir()] == [name]
