@@ -19,6 +19,7 @@ __all__ = [
     "exact_value",
     "hexadecimal",
     "in_order",
+    "is_negative_zero",
     "nearest",
     "number_of",
     "parts",
@@ -129,10 +130,19 @@ def with_subnormals(values: np.ndarray) -> bool:
     return bool(np.any((fields == 0) & (sizes != 0)))
 
 
-def unsigned_zeros(values: Any) -> np.ndarray:
-    """Numbers, as an array, with +0.0 for every -0.0; those that are no float64 as they are."""
+def is_negative_zero(values: Any) -> np.ndarray:
+    """Where numbers are -0.0; never where they are no float64."""
     numbers = np.asarray(values)
-    return np.where(numbers.view(np.uint64) == SIGN, 0.0, numbers) if numbers.dtype == np.float64 else numbers
+    found: np.ndarray = (
+        numbers.view(np.uint64) == SIGN if numbers.dtype == np.float64 else np.zeros(numbers.shape, bool)
+    )
+    return found
+
+
+def unsigned_zeros(values: Any) -> np.ndarray:
+    """Numbers, as an array, with +0.0 for every -0.0."""
+    negative = is_negative_zero(values)
+    return np.where(negative, 0.0, values) if negative.any() else np.asarray(values)
 
 
 def in_order(values: np.ndarray) -> np.ndarray:

@@ -8,6 +8,7 @@ import h5py
 import numpy as np
 from h5py import h5a, h5o
 
+from reference.binary64 import is_negative_zero
 from reference.names import short
 from reference.store.attributes import refusal, text_of, value_of
 from reference.store.errors import DatasetError
@@ -96,6 +97,6 @@ def _parts(dataset: h5py.Dataset, signed_zeros: bool) -> Iterator[np.ndarray]:
         part = dataset[selection]
         if not np.isfinite(part).all():
             raise refusal(dataset, "has an element that is not finite")
-        if not signed_zeros and (np.signbit(part) & (part == 0)).any():
+        if not signed_zeros and is_negative_zero(part).any():
             raise refusal(dataset, "has an element -0.0; zero has no sign there")
         yield part

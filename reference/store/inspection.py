@@ -15,6 +15,7 @@ import h5py
 import numpy as np
 from h5py import h5d, h5l, h5o, h5z
 
+from reference.binary64 import is_negative_zero
 from reference.catalogue import PROFILES
 from reference.claims import free_attributes, limbs_fault, measurement_fault
 from reference.names import is_grid_file, short, unknown
@@ -165,7 +166,7 @@ class Inspection:
         if set(parameters) != {parameter.name for parameter in layout.parameters}:
             raise refusal(group, f"has the parameters {short(', '.join(sorted(parameters)))}, not the schema's")
         for name, number in parameters.items():
-            if not self.schema.signed_zeros and not number and math.copysign(1, number) < 0:
+            if not self.schema.signed_zeros and is_negative_zero(number):
                 raise refusal(group, f"has the parameter {name} = -0.0; zero has no sign there")
         says(group, group_attributes(layout, parameters))
         lengths = {LIMB: TAIL_LIMBS}

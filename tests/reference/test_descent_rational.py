@@ -8,6 +8,7 @@ from fractions import Fraction
 import pytest
 
 from reference.expression import Expression
+from reference.precision import mp
 from reference.problems.descent import RACE, Descent
 from reference.problems.descent.exactly import COSINES, exactly
 from reference.problems.descent.surds import PI, UNKNOWN, NotExactError, Surd, exact_root, surd
@@ -224,7 +225,8 @@ def test_a_time_or_a_length_by_an_angle_may_be_rational(name):
     assert problem.exact_row("descent_time", None) == (None if time is None else (time,))
     assert problem.exact_row("arc_length", None) == (None if length is None else (length,))
     for row in ("descent_time", "arc_length"):
-        form = getattr(problem.quadrature_form(), row)
+        with mp.workprec(53):
+            form = getattr(problem.quadrature_form(), row)
         assert float(form) == pytest.approx(float(problem.certified(row)), rel=1e-14)
 
 
