@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 
 from compare.methods import DEFAULT
-from compare.studies.common import TRACE_SAMPLES
 from compare.studies.pendulum import study
 from reference import Pendulum
 
@@ -36,7 +35,7 @@ def test_traces_start_at_the_start_and_the_exact_one_is_exact() -> None:
     assert [trace.method for trace in found.traces] == ["euler", "verlet"]
     (exact,) = found.exact
     for trace in (*found.traces, exact):
-        assert len(trace.time) == len(trace.states) == len(trace.drift) == TRACE_SAMPLES + 1
+        assert len(trace.time) == len(trace.states) == len(trace.drift) == 128 + 1
         assert (trace.time[0], *trace.states[0], trace.drift[0]) == (0, 1, 0, 0)
     np.testing.assert_array_equal(exact.states, Pendulum(1.0).state(exact.time))
     assert np.max(np.abs(exact.drift)) < 1e-14
