@@ -181,7 +181,7 @@ def as_text(family: Family, inputs: Mapping[str, Any], found: list[Certified], d
         lines.append(f"  {value.quantity.name} = {value.digits(digits)}{unit}")
         if routes:
             agreed = ", ".join(f"{route} {count:.1f} digits" for route, count in _agreed(value).items())
-            lines.append(f"    agreed by {agreed}")
+            lines.append(f"    agreed by {agreed}" if agreed else "    no other route reaches it")
     return "\n".join(lines)
 
 

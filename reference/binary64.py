@@ -20,6 +20,7 @@ __all__ = [
     "hexadecimal",
     "in_order",
     "is_negative_zero",
+    "is_subnormal",
     "nearest",
     "number_of",
     "parts",
@@ -153,20 +154,24 @@ def in_order(values: np.ndarray) -> np.ndarray:
     return np.where(bits < 0, np.iinfo(np.int64).min - bits, bits)
 
 
+def is_subnormal(value: float) -> bool:
+    """Whether a number is one of those below 2^-1022 that are not zero."""
+    return 0 < bits_of(value) & ~SIGN < LEADING
+
+
 def hexadecimal(value: float) -> str:
     """``value.hex()``."""
-    bits = bits_of(value)
-    size = bits & ~SIGN
-    if not 0 < size < LEADING:
+    if not is_subnormal(value):
         return value.hex()
-    return f"{'-' if bits & SIGN else ''}0x0.{size:013x}p-1022"
+    bits = bits_of(value)
+    return f"{'-' if bits & SIGN else ''}0x0.{bits & ~SIGN:013x}p-1022"
 
 
 def shortest(value: float) -> str:
     """``repr(value)``: the shortest decimal that is read as this number."""
-    bits = bits_of(value)
-    if not 0 < bits & ~SIGN < LEADING:
+    if not is_subnormal(value):
         return repr(value)
+    bits = bits_of(value)
     size, scale = Decimal(parts(bits)[0]), Decimal(1 << -MIN_EXPONENT)
     texts = (str(Context(prec=digits).divide(size, scale)).lower() for digits in range(1, DECIMAL_DIGITS + 1))
     return next(text for text in texts if bits_of(nearest(Fraction(text))) == bits)

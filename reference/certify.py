@@ -123,8 +123,9 @@ class Certified:
         return self.problem.row(self.row).quantities[self.component]
 
     def _decide(self, of_ball: Any, of_exact: Any, bits: int) -> Any:
-        found = enclosure.decide(self.problem, self.row, [self.argument], of_ball, of_exact, bits)
-        return found[0][self.component]
+        asked = self.problem, self.row, [self.argument]
+        ((found,),) = enclosure.decide(*asked, of_ball, of_exact, bits, component=self.component)
+        return found
 
     def limbs(self, count: int = 3) -> tuple[float, ...]:
         """The correctly rounded double and the ``count`` - 1 limbs of its tail.

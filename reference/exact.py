@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 import operator
+import re
 from collections.abc import Iterable, Mapping, Set
 from decimal import Decimal
 from fractions import Fraction
@@ -45,8 +46,12 @@ def exact(value: Any, name: str = "value") -> Fraction:
     """
     found = _exact(value, name)
     if max(found.numerator.bit_length(), found.denominator.bit_length()) > (MAX_DIGITS + 1) * LOG2_10:
-        raise ValueError(f"{name} has a numerator or denominator of more than {MAX_DIGITS} digits; fewer are accepted.")
+        raise _too_long(name)
     return found
+
+
+def _too_long(name: str) -> ValueError:
+    return ValueError(f"{name} has a numerator or denominator of more than {MAX_DIGITS} digits; fewer are accepted.")
 
 
 def _exact(value: Any, name: str) -> Fraction:
@@ -83,6 +88,8 @@ def _spelled_number(text: str, name: str) -> Fraction:
     try:
         return Fraction(text.strip())
     except (ValueError, ZeroDivisionError):
+        if any(len(digits) > MAX_DIGITS for digits in re.findall(r"\d+", text)):
+            raise _too_long(name) from None
         raise ValueError(f"{name} is '{short(text)}', which spells no number; {ACCEPTED}.") from None
 
 

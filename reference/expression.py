@@ -107,6 +107,8 @@ class _Reader:
     def terms(self) -> Terms:
         if len(self._text) > MAX_LENGTH:
             raise self._refusal(f"has {len(self._text)} characters; at most {MAX_LENGTH} are accepted")
+        if "#" in self._text:  # Python's parser would read what follows as a comment
+            raise self._refusal("holds '#', which has no place in a formula")
         try:
             with warnings.catch_warnings():
                 warnings.simplefilter("error")

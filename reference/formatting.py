@@ -5,6 +5,10 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING
 
+from reference.binary64 import is_subnormal
+from reference.names import short
+from reference.underflow import require_gradual
+
 if TYPE_CHECKING:
     from reference.certify import Certified
 
@@ -26,10 +30,16 @@ def formatted(value: Certified, spec: str) -> str:
 
     For "e", "f" and "g" with a precision the digits are the correctly rounded ones of the number itself, however many;
     anything else formats the nearest double.
+
+    Raises:
+        UnderflowModeError: the nearest double is subnormal, and the processor takes it for zero.
     """
     asked = SPEC.fullmatch(spec)
     if asked is None or (asked["group"] and (asked["zero"] or asked["align"] == "=")):
-        return format(float(value), spec if "z" in spec else SIGNED.sub(r"\1z", spec, count=1))
+        number = float(value)
+        if is_subnormal(number):
+            require_gradual(f"{value.quantity.name} in the format '{short(spec)}'")
+        return format(number, spec if "z" in spec else SIGNED.sub(r"\1z", spec, count=1))
     precision, kind = int(asked["precision"]), asked["type"].lower()
     text = {"e": _scientific, "f": _fixed, "g": _general}[kind](value, precision)
     body = text.removeprefix("-")

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
+from reference.binary64 import hexadecimal
 from reference.exact import as_number, exact, spelled
 from reference.names import short
 
@@ -98,9 +99,15 @@ class Reals(Domain):
 
     @property
     def accepted(self) -> str:
-        below = "" if self.low is None else f"{spelled(self.low)} <= "
-        above = "" if self.high is None else f" <= {spelled(self.high)}"
+        below = "" if self.low is None else f"{_told(self.low)} <= "
+        above = "" if self.high is None else f" <= {_told(self.high)}"
         return f"a number with {below}{self.name}{above}"
+
+
+def _told(bound: Fraction) -> str:
+    """A bound: of a double that is no short decimal, the shortest one and its exact value."""
+    text, number = spelled(bound), as_number(bound)
+    return f"{number} ({hexadecimal(number)})" if "/" in text and isinstance(number, float) else text
 
 
 ONCE = Once("once", "the argument")

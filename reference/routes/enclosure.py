@@ -33,8 +33,11 @@ def decide(
     bits: int,
     *,
     charted: bool = False,
+    component: int | None = None,
 ) -> list[list[Answer]]:
     """Return for each argument the answers of the row's quantities: ``of_exact`` where rational, else ``of_ball``.
+
+    With a ``component`` only the answer of that quantity: the others need not be decided.
 
     Where it is ``charted``, the problem's chart is asked first, if it has one for so many arguments; it is proven too,
     so that only the time depends on it.
@@ -44,7 +47,8 @@ def decide(
         WorkBoundError: a ball is undecided at the bound on the working precision.
     """
     arguments = problem.arguments(row, arguments)
-    rational = [problem.exact_row(row, argument) for argument in arguments]
+    exactly = [problem.exact_row(row, argument) for argument in arguments]
+    rational = [None if known is None else _wanted(known, component) for known in exactly]
     pending = [i for i, known in enumerate(rational) if known is None or None in known]
     start = bits + GUARD_BITS + problem.working_bits([arguments[i] for i in pending])
     bound = min(problem.max_bits, problem.row(row).max_bits)
@@ -54,7 +58,7 @@ def decide(
 
     def by(form: Solution, indices: Sequence[int]) -> list[Sequence[Any]]:
         found = form.rows(row, [arguments[i] for i in indices])
-        return [_known(rational[i], balls) for i, balls in zip(indices, found, strict=True)]
+        return [_known(rational[i], _wanted(balls, component)) for i, balls in zip(indices, found, strict=True)]
 
     def enclose(rows: Sequence[int]) -> Sequence[Sequence[Any]]:
         return by(problem.closed_form(BALL), [rest[i] for i in rows])
@@ -68,13 +72,19 @@ def decide(
             if None not in found:
                 answers[i] = found
     rest = [i for i in pending if i not in answers]
-    what = f"{row} of {problem!r}"
+    name = row if component is None else problem.row(row).quantities[component].name
+    what = f"{name} of {problem!r}"
     proven = ziv(enclose, answer, len(rest), start, what, bound) if rest else []
     answers.update(zip(rest, proven, strict=True))
     return [
         answers[i] if known is None or i in answers else [of_exact(value) for value in known if value is not None]
         for i, known in enumerate(rational)
     ]
+
+
+def _wanted(values: Sequence[Any], component: int | None) -> Sequence[Any]:
+    """The values of one row, or the one that is asked for."""
+    return values if component is None else [values[component]]
 
 
 def _known(rational: Sequence[Fraction | None] | None, balls: Sequence[arb]) -> Sequence[Any]:

@@ -8,7 +8,7 @@ from fractions import Fraction
 import pytest
 from independent import correct_limbs, fraction
 
-from reference import Certified, Pendulum
+from reference import Certified, Descent, Pendulum, PolarBrachistochrone
 from reference.certify import DisagreementError, agreement
 from reference.limbs import WorkBoundError
 from reference.precision import mp
@@ -133,3 +133,19 @@ def test_what_needs_more_bits_than_the_limit_is_an_error(monkeypatch):
 def test_a_disagreement_is_no_value_error_because_the_user_did_nothing_wrong():
     assert issubclass(DisagreementError, ArithmeticError)
     assert not issubclass(DisagreementError, ValueError)
+
+
+def test_a_number_is_decided_though_another_of_its_row_is_not():
+    """The height at the end, log(2) - log(2), is a zero that no ball decides."""
+    fall = Descent("log(x) - log(2)", start=3, end=2)
+    assert fall.certified("passage", 1, component=0).digits(30) == fall.descent_time().digits(30)
+    assert fall.certified("passage", 1, component=1).limbs() == (2.0, 0.0, 0.0)
+    sentence = r"^passage_y of Descent\('log\(x\) - log\(2\)', .*\) could not be decided with 2048 bits"
+    with pytest.raises(WorkBoundError, match=sentence):
+        fall.certified("passage", 1, component=2).digits(5)
+
+
+def test_the_bound_that_an_argument_is_beyond_is_shown_as_short_as_it_is_exact():
+    for z0, told in ((0.2, r"0\.2 \(0x1\.999999999999ap-3\)"), ("0.2", r"0\.2"), ("1/3", "1/3"), (0.5, r"0\.5")):
+        with pytest.raises(ValueError, match=rf"^z is 0\.1; a number with {told} <= z <= 1 is accepted\.$"):
+            PolarBrachistochrone(z0).certified("by_z", 0.1)

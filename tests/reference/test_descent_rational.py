@@ -253,3 +253,14 @@ def test_a_sine_of_the_unknown_is_a_quotient_in_the_tangent_of_its_quarter(text,
     )
     assert exactly(Expression.parse("sin(x)**2 + cos(x)**2", "x"), UNKNOWN) == 1
     assert exactly(Expression.parse("sin(x/3)", "x"), UNKNOWN) is None
+
+
+def test_what_is_rational_at_one_end_is_known_whatever_the_other_end_is():
+    """No ball decides that a coordinate is zero."""
+    chain = Descent("cosh(x)", start="log(2)", end=0)
+    assert chain.exact_row("passage", Fraction(1))[1:3] == (0, 1)
+    assert chain.along("passage", 1, limbs=3)[1:3].tolist() == [[0, 0, 0], [1, 0, 0]]
+    assert Descent("log(x)", start="exp(1)", end=1).exact_row("passage", Fraction(1))[1:3] == (1, 0)
+    fall = Descent("-x", start=0, end="exp(1)", g=2)
+    assert fall.exact_row("motion", Fraction(0))[:2] == (0, 0)
+    assert fall.exact_row("passage", Fraction(1)) is None

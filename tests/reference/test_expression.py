@@ -203,3 +203,9 @@ def test_a_text_beyond_the_limit_is_not_even_read(monkeypatch):
 def test_the_power_zero_is_one_of_what_is_a_number():
     for text in ("x**0", "(x - x)**0", "0**0", "pi**0"):
         assert Expression.parse(text, "x")(NUMPY, 2.0) == 1
+
+
+def test_a_comment_is_no_part_of_a_formula():
+    for text in ("x # + x**2", "x#", "#x", "(x # y\n)"):
+        with pytest.raises(ValueError, match=r"^formula '.*' holds '#', which has no place in a formula\.$"):
+            Expression.parse(text, "x")

@@ -287,3 +287,10 @@ def test_the_version_is_the_one_of_the_package():
     import tomllib
 
     assert tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]["version"] == reference.__version__
+
+
+def test_at_says_where_no_other_route_reaches(capsys):
+    assert main(["at", "polar", "--end", "0.5,1e-90", "--digits", "5", "--routes"]) == 0
+    printed = capsys.readouterr().out
+    assert "    no other route reaches it\n" in printed
+    assert "agreed by \n" not in printed

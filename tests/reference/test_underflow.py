@@ -157,3 +157,22 @@ def test_where_floats_decide_the_mode_is_refused_in_one_sentence():
     assert check == f"a check {SENTENCE}"
     assert score == f"a score {SENTENCE}"
     assert errors == drift == f"a comparison {SENTENCE}"
+
+
+LAID_OUT = """
+from reference import *
+from reference.underflow import UnderflowModeError
+answer, number = [], Pendulum("1e-310").certified("state", 0)
+for spec in ("", ">30", "g", ".3%", ".5e", ".400f", ".3g"):
+    try:
+        answer.append(format(number, spec))
+    except UnderflowModeError as refusal:
+        answer.append(str(refusal))
+"""
+
+
+def test_a_subnormal_number_is_laid_out_from_its_own_digits_or_refused():
+    proven, nearest = ["1.00000e-310", f"0.{'0' * 309}1{'0' * 90}", "1e-310"], ["1e-310", f"{'1e-310':>30}", "1e-310"]
+    assert in_the_mode(LAID_OUT, mode=False) == [*nearest, "0.000%", *proven]
+    refused = [f"theta in the format '{spec}' {SENTENCE}" for spec in ("", ">30", "g", ".3%")]
+    assert in_the_mode(LAID_OUT) == [*refused, *proven]

@@ -31,6 +31,7 @@ __all__ = ["admitted"]
 
 BITS = 256
 SAMPLES = 256
+APART = f"are not proven with {BITS} bits to differ"
 REAL = "a curve that is real and finite on all of its way is accepted"
 BY_PARAMETER = "a curve that is vertical there is accepted by a parameter, 'x = ...; y = ...'"
 NEAR = Fraction(8, 2**MAX_DEPTH)
@@ -47,7 +48,7 @@ def admitted(curve: Curve, released: Fraction) -> Slide:
     with ctx.workprec(BITS):
         doubt = _check_formulas(curve, released) if isinstance(curve, FormulaCurve) else None
         _check_ends(curve, released)
-        slide = Slide(curve, released, _order(curve, released))
+        slide = Slide(curve, released, _order(curve, released, doubt))
         if doubt is not None and doubt.pole:
             raise _doubtful(curve, doubt)
         _check_way(slide)
@@ -85,7 +86,9 @@ def _check_formulas(curve: FormulaCurve, released: Fraction) -> Unreal | None:
         except OutsideDomainError as failure:
             raise _refusal(curve, f"does not {name} at a finite real number: {failure}") from None
     if curve.start(BALL).overlaps(curve.end(BALL)):
-        raise _refusal(curve, "has the same start and end; two ends that differ are accepted")
+        same = exactly(lambda m, _: curve.start(m) - curve.end(m), 0)
+        fails = "has the same start and end" if same is not None and same.is_zero else f"has ends that {APART}"
+        raise _refusal(curve, f"{fails}; two ends that differ are accepted")
     found = unreal(curve, (released, *_samples(released)), released)
     if found is None or not (found.certain or found.everywhere):
         return found
@@ -108,10 +111,12 @@ def _check_ends(curve: Curve, released: Fraction) -> None:
         raise _refusal(curve, f"{fails}; an end below the start is accepted")
 
 
-def _order(curve: Curve, released: Fraction) -> int:
+def _order(curve: Curve, released: Fraction, doubt: Unreal | None) -> int:
     """1 where the curve leaves the start downwards, 2 where it leaves a cusp as the cycloid does."""
     _, slope, arc_square = _at(curve, released)
     if not (slope.is_finite() and arc_square.is_finite()):
+        if doubt is not None and doubt.pole:
+            raise _doubtful(curve, doubt)
         raise _refusal(
             curve,
             f"is not real and analytic with a finite slope at its start; {BY_PARAMETER}",
@@ -176,7 +181,10 @@ def _failing(slide: Slide, w: Fraction, place: str) -> str:
     if not (height.is_finite() and slope.is_finite() and arc_square.is_finite()):
         return f"is not real and analytic with a finite slope near {place}; {BY_PARAMETER}"
     if not top > height:
-        return f"comes up to the level of its start near {place}, where a body from rest comes to rest"
+        return (
+            f"comes up to the level of its start near {place}, where a body from rest comes to rest, or too near to it "
+            "to be told apart"
+        )
     if still:
         return f"has a cusp or a parameter that stands still (x' = y' = 0) near {place}"
     if w == slide.released or (w - slide.released) * 2**MAX_DEPTH < 1 - slide.released:

@@ -91,6 +91,11 @@ class FormulaCurve(Curve):
         start = self.start(m)
         return start + (self.end(m) - start) * w
 
+    def end_or_parameter(self, m: ElementaryArithmetic, w: Fraction) -> Any:
+        """p at an exact w: at an end what is written there, whatever the other end is."""
+        ends = {Fraction(0): self.start, Fraction(1): self.end}
+        return ends[w](m) if w in ends else self.parameter(m, m.number(w))
+
     def horizontal(self, m: ElementaryArithmetic, w: Any) -> Any:
         return self.x(m, self.parameter(m, w))
 

@@ -120,8 +120,16 @@ class Rational:
         found: Values | None = known(lambda: getattr(self, f"_{row}")(*([] if argument is None else [argument])))
         return None if found is None or all(value is None for value in found) else found
 
-    def _exactly(self, name: str, w: Any) -> Surd | None:
-        return exactly(getattr(self.slide.curve, name), w)
+    def _point(self, w: Fraction) -> tuple[Surd | None, Surd | None]:
+        """x and y at w."""
+        curve = self.slide.curve
+        if not isinstance(curve, FormulaCurve):
+            return exactly(curve.horizontal, w), exactly(curve.height, w)
+        x, y = (
+            known(lambda formula=formula: surd(formula(SURD, curve.end_or_parameter(SURD, w))))  # type: ignore[misc]
+            for formula in (curve.x, curve.y)
+        )
+        return x, y
 
     def _drop(self, w: Fraction) -> Surd | None:
         curve, released = self.slide.curve, self.slide.released
@@ -189,7 +197,7 @@ class Rational:
         return bend is not None and bend.is_zero
 
     def _motion(self, t: Fraction) -> Values:
-        x, y = (self._exactly(name, self.slide.released) for name in ("horizontal", "height"))
+        x, y = self._point(self.slide.released)
         if t == 0:
             return _plain(x), _plain(y), Fraction(0), Fraction(0), Fraction(0)
         if self.line is None:
@@ -204,7 +212,7 @@ class Rational:
         )
 
     def _passage(self, w: Fraction) -> Values:
-        x, y = (_plain(self._exactly(name, w)) for name in ("horizontal", "height"))
+        x, y = map(_plain, self._point(w))
         if w == self.slide.released:
             return Fraction(0), x, y, Fraction(0), Fraction(0)
         drop = self._drop(w)

@@ -55,11 +55,8 @@ def unreal(curve: FormulaCurve, places: Iterable[Fraction], released: Fraction) 
 
 def _at(curve: FormulaCurve, w: Fraction, radius: Fraction) -> Unreal | None:
     """What is not proven to be real within ``radius`` of w; at the ends of the parameter themselves, exactly there."""
-    ends = {Fraction(0): curve.start, Fraction(1): curve.end}
-    if radius or w not in ends:
-        parameter = curve.parameter(BALL, arb(BALL.number(w), BALL.number(radius)))
-    else:
-        parameter = ends[w](BALL)
+    around = arb(BALL.number(w), BALL.number(radius))
+    parameter = curve.parameter(BALL, around) if radius else curve.end_or_parameter(BALL, w)
     try:
         for formula in (curve.x, curve.y):
             real(formula, parameter)
