@@ -18,7 +18,7 @@ from compare.submission.spellings import hexadecimal, spelled
 from reference.exact import MAX_DIGITS, as_number, exact
 from reference.names import short
 
-__all__ = ["LOG10_2", "ROUND_TRIP_DIGITS", "Written", "of_decimal", "of_value"]
+__all__ = ["BINARY64_DIGITS", "LOG10_2", "ROUND_TRIP_DIGITS", "Written", "of_decimal", "of_value"]
 
 LOG10_2 = math.log10(2)
 BINARY64_DIGITS = 53 * LOG10_2
