@@ -146,7 +146,7 @@ class Columns:
             ValueError: one is in degrees, or milliseconds, or others that are known.
         """
         for i, text in enumerate(texts):
-            said = [text] if alone else [part for _, part in split_name(text) if part]
+            said = [text] if alone or ("/" in text and unit(text)) else [part for _, part in split_name(text) if part]
             known = [(part, found) for part in said if (found := unit(part))]
             if not known:
                 continue

@@ -6,9 +6,11 @@ import json
 from pathlib import Path
 
 import h5py
+import mpmath
 import numpy as np
 import pytest
 
+from compare import score
 from compare.__main__ import main
 from compare.submission.units import Unit, unit
 from reference import Pendulum
@@ -166,6 +168,12 @@ def test_units_of_rates_are_known_by_their_whole(text, found, tmp_path, capsys):
             assert judged(tmp_path / "a.csv", capsys)["rows"] == 11
 
 
+def test_a_name_that_is_a_unit_as_a_whole_is_no_quotient(tmp_path, capsys):
+    (tmp_path / "a.csv").write_text("s,rad,deg/s\n0,1,0\n")
+    said = refusal(tmp_path / "a.csv", capsys, "--columns", "s,rad,deg/s")
+    assert "the column deg/s is in degrees; radians are accepted, so multiply by pi/180" in said
+
+
 def test_the_option_that_is_suggested_has_as_many_letters_as_columns_are_needed(tmp_path, capsys):
     (tmp_path / "a.csv").write_text("a,b\n0,1\n")
     assert "--columns A,B,C would" in refusal(tmp_path / "a.csv", capsys)
@@ -209,3 +217,17 @@ def test_at_rest_digits_are_those_on_the_scale_whatever_the_zeros_are_written_wi
     assert found["worst_scaled_digits"] == pytest.approx(digits, abs=0.01)
     assert main([*options, "--format", "csv"]) == 0
     assert float(capsys.readouterr().out.split("\n")[2].split(",")[4]) == pytest.approx(digits, abs=0.01)
+
+
+@pytest.mark.parametrize("masks", [([1] * 11, 0), (0, np.ones((11, 2)))])
+def test_masked_arrays_are_refused(masks):
+    t, y = (np.ma.masked_array(each, mask) for each, mask in zip((T, Y), masks, strict=True))
+    for times, states in ((t, y), (t, Y), (T, y), (T, list(y))):
+        with pytest.raises(TypeError, match="is a masked array, whose elements need not be numbers"):
+            score(Pendulum(1.0), times, states)
+
+
+@pytest.mark.parametrize("number", [mpmath.inf, -mpmath.inf, mpmath.nan])
+def test_numbers_of_mpmath_that_are_not_finite_are_named(number):
+    with pytest.raises(ValueError, match=r"theta in row 1 is .*, which is not finite"):
+        score(Pendulum(1.0), [0], [[number, 0]])
