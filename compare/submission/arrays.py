@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 import numpy as np
 
 from compare.submission.chunk import Chunk, Doubles, Row
+from compare.submission.exact_rows import as_double
 from compare.submission.npy import table_of
 from compare.submission.written import LOG10_2, of_value
 
@@ -17,10 +18,11 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from compare.submission.columns import Columns
+    from compare.submission.exact_rows import Times
 
 __all__ = ["Column", "Sliced", "chunks", "npy_columns"]
 
-NUMBERS = "fiuU"
+NUMBERS = "fiuUS"
 """NumPy kinds of columns that can be judged: floats, integers, and decimals as strings."""
 
 
@@ -54,8 +56,8 @@ class Sliced:
         """There is nothing more to be told."""
 
 
-def chunks(columns: Columns, found: Sequence[Column], size: int) -> Iterator[Chunk]:
-    """The rows of columns of one length, the time first.
+def chunks(columns: Columns, found: Sequence[Column], size: int, times: Times) -> Iterator[Chunk]:
+    """The rows of columns of one length, the time first; where that is decimals, ``times`` says how they are read.
 
     Raises:
         ValueError: there are none, the columns are not of one length, or one holds what is no finite number.
@@ -73,13 +75,32 @@ def chunks(columns: Columns, found: Sequence[Column], size: int) -> Iterator[Chu
     for begin in range(0, rows, size):
         count = min(size, rows - begin)
         parts = [np.asarray(column.read(count)) for column in found]
+        parts = [_text(name, part) if part.dtype.kind == "S" else part for name, part in zip(names, parts, strict=True)]
         if any(part.shape != (count,) for part in parts):
             raise ValueError(f"there are fewer rows than the {rows} that the file declares; all of them are accepted.")
         for name, part in zip(names, parts, strict=True):
             _refuse_no_letters(name, part)
-        yield Chunk(len(parts[0]), Exact(names, parts, begin), _doubles(parts))
+        exact = Exact(names, parts, begin)
+        if not begin and found[0].dtype.kind in "SU":
+            times.decide(number for place in range(count) for number in exact(place).state)
+        exact.doubles = times.doubles
+        yield Chunk(count, exact, _doubles(parts))
     for column in found:
         column.finish()
+
+
+def _text(name: str, part: np.ndarray) -> np.ndarray:
+    """Strings of bytes as text.
+
+    Raises:
+        ValueError: one is no ASCII, as decimals are.
+    """
+    try:
+        return part.astype(np.str_)
+    except UnicodeDecodeError:
+        raise ValueError(
+            f"{name} has a string of bytes that is no text; decimals such as '0.5' are accepted."
+        ) from None
 
 
 def _refuse_no_letters(name: str, part: np.ndarray) -> None:
@@ -95,10 +116,15 @@ def _refuse_no_letters(name: str, part: np.ndarray) -> None:
 
 
 class Exact:
-    """The exact rows of columns, which begin after the first ``begin`` rows of a file."""
+    """The exact rows of columns, which begin after the first ``begin`` rows of a file.
+
+    Attributes:
+        doubles: whether times that are decimals are the doubles that they spell.
+    """
 
     def __init__(self, names: Sequence[str], columns: Sequence[np.ndarray], begin: int) -> None:
         self._names, self._columns, self._begin = names, columns, begin
+        self.doubles = False
 
     def __call__(self, place: int) -> Row:
         at = f"row {self._begin + place + 1}"
@@ -106,7 +132,7 @@ class Exact:
             of_value(_scalar(column[place]), f"{name} in {at}")
             for name, column in zip(self._names, self._columns, strict=True)
         )
-        return Row(t, tuple(state), at)
+        return Row(as_double(t) if self.doubles else t, tuple(state), at)
 
 
 def _doubles(columns: Sequence[np.ndarray]) -> Doubles | None:

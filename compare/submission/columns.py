@@ -41,6 +41,10 @@ class Columns:
     units: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
+        asked = [name for name in self.asked or () if not name.isdecimal()]
+        twice = next((name for name in asked if asked.count(name) > 1), None)
+        if twice is not None:
+            raise ValueError(f"--columns names {short(twice)} twice; each column once is accepted.")
         if self.asked is not None and len(self.asked) not in {2, len(self.wanted)}:
             raise ValueError(
                 f"--columns names {self._accepted}; or 2 of an NPZ or HDF5 file, for {self.wanted[0]} and an array of "
@@ -69,6 +73,11 @@ class Columns:
     @property
     def _list(self) -> str:
         return ", ".join(self.wanted)
+
+    @property
+    def _letters(self) -> str:
+        """The option with a letter for each name."""
+        return f"--columns {','.join('ABCDEFGH'[: len(self.wanted)])}"
 
     @property
     def _accepted(self) -> str:
@@ -137,14 +146,16 @@ class Columns:
             ValueError: one is in degrees, or milliseconds, or others that are known.
         """
         for i, text in enumerate(texts):
-            said = [text] if alone else [part for _, part in split_name(text) if part]
+            said = [text] if alone or ("/" in text and unit(text)) else [part for _, part in split_name(text) if part]
             known = [(part, found) for part in said if (found := unit(part))]
             if not known:
                 continue
             part, found = known[0]
             wanted = self.units[i] if i < len(self.units) else "" if found.factor == "1" else found.of
-            if found.factor == "1" and found.of == wanted.replace("rad s-1", "s-1").replace("rad", "1"):
-                continue  # a radian is 1
+            if found.of == wanted.replace("rad s-1", "s-1").replace("rad", "1"):
+                found = found._replace(of=wanted)  # a radian is 1
+            if found == (wanted, "1"):
+                continue
             column = f"the column {short(text)}" if not alone else f"{self.wanted[i]}, with the units {short(text)},"
             if found.factor != "1" and wanted == found.of:
                 accepted = "radians are" if wanted == "rad" or found.factor == "pi/180" else f"{wanted} is"
@@ -182,7 +193,7 @@ class Columns:
         sentence = f"there is no {kind.removesuffix('s')} {short(name)}: the {kind} are {_listed(found) or 'none'}"
         if self.asked is not None:
             return f"{sentence}."
-        names = option(self._ordered(found, kind)) if len(found) == len(self.wanted) else "--columns A,B,C"
+        names = option(self._ordered(found, kind)) if len(found) == len(self.wanted) else self._letters
         two = " (or A,B where B has all states)" if kind in {"arrays", DATASETS} else ""
         return f"{sentence}, and {self._list} are needed; {names} would say which they are{two}."
 
@@ -201,7 +212,7 @@ class Columns:
         group = which[0].removesuffix(which[0].rpartition("/")[2])
         names = self.wanted if {f"{group}{each}" for each in self.wanted} <= set(found) else (self.wanted[0], USUAL)
         paths = [f"{group}{each}" for each in names]
-        example = option(paths) if set(paths) <= set(found) else "--columns A,B,C"
+        example = option(paths) if set(paths) <= set(found) else self._letters
         return f"{sentence}, and there are {_listed(found)}; {example} would say which by their paths."
 
 

@@ -63,7 +63,8 @@ class Dialect:
                     f"a field in quotes is longer than {csv.field_size_limit()} characters; numbers are accepted."
                 ) from None
             return [word.strip() for word in words if word or self.separator]
-        words = [word.strip().strip("\"'") for word in line.split(self.separator)]
+        quoted = line.startswith("'")
+        words = [word.strip().strip("'") if quoted else _unquoted(word.strip()) for word in line.split(self.separator)]
         return self._apart(words) if self.separator is None and len(words) != width else words
 
     def _apart(self, words: list[str]) -> list[str]:
@@ -99,6 +100,12 @@ class Dialect:
         """What is to be said of a line with more fields than are wanted, if they come of decimal commas; else ""."""
         doubtful = self.separator == "," and wanted < fields <= 2 * wanted and "." not in line
         return f"; {COMMAS_BETWEEN}" if doubtful else ""
+
+
+def _unquoted(word: str) -> str:
+    """A word without the quotes about it; at the end of a name alone they are primes, as of a derivative."""
+    bare = word.strip("'")
+    return word if word.startswith(bare) and bare != word and not is_numeric(bare) else bare
 
 
 def _opened(line: str) -> str:

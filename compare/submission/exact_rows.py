@@ -8,12 +8,30 @@ from typing import TYPE_CHECKING, Protocol
 from compare.submission.written import ROUND_TRIP_DIGITS, Written, of_value
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Iterable, Sequence
 
     from compare.submission.chunk import Row
     from compare.submission.lines import Line
 
-__all__ = ["Exact"]
+__all__ = ["Exact", "Times", "as_double"]
+
+
+class Times:
+    """How the times of a file are read that are decimals.
+
+    Attributes:
+        doubles: whether each is the double that it spells, as it was in the program that wrote it; else as written.
+    """
+
+    def __init__(self, *, as_written: bool) -> None:
+        self._as_written, self.doubles = as_written, False
+
+    def decide(self, states: Iterable[Written]) -> None:
+        """Decide it by the digits of the first states: doubles have no more than 17."""
+        self.doubles = not self._as_written and max(number.digits for number in states) <= ROUND_TRIP_DIGITS
+
+    def __str__(self) -> str:
+        return "binary64" if self.doubles else "as written"
 
 
 class Reader(Protocol):
@@ -31,10 +49,10 @@ class Exact:
 
     def __call__(self, place: int) -> Row:
         row = self._table.row(self._batch[place])
-        return row._replace(t=_as_double(row.t)) if self._doubles else row
+        return row._replace(t=as_double(row.t)) if self._doubles else row
 
 
-def _as_double(t: Written) -> Written:
+def as_double(t: Written) -> Written:
     """The double that a time of at most 17 digits spells."""
     if t.last is None or t.digits > ROUND_TRIP_DIGITS or abs(t.value) > sys.float_info.max:
         return t

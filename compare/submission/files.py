@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from compare.submission.arrays import chunks, npy_columns
+from compare.submission.exact_rows import Times
 from compare.submission.hdf5 import hdf5_columns
 from compare.submission.lines import NOTHING
 from compare.submission.npz import npz_columns
@@ -45,7 +46,8 @@ class Rows:
         self._suffix = TEXT[0] if name == STANDARD_INPUT else self._path.suffix.lower()
         if self._suffix not in (".npz", *HDF5):
             columns.refuse_packed()
-        self._text = TextRows(columns, passed, as_written=as_written)
+        self._times = Times(as_written=as_written)
+        self._text = TextRows(columns, passed, self._times)
         if name == STANDARD_INPUT:
             return
         if self._path.is_dir():
@@ -59,7 +61,7 @@ class Rows:
 
     @property
     def times(self) -> str:
-        return self._text.times
+        return str(self._times)
 
     @property
     def notes(self) -> tuple[str, ...]:
@@ -76,4 +78,4 @@ class Rows:
             return
         opened = {".npy": npy_columns, ".npz": npz_columns}.get(self._suffix, hdf5_columns)
         with opened(self._path, self._columns) as found:
-            yield from chunks(self._columns, found, size)
+            yield from chunks(self._columns, found, size, self._times)

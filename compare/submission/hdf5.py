@@ -36,9 +36,12 @@ def hdf5_columns(path: Path, columns: Columns) -> Iterator[list[Column]]:
         in_two = packed(columns, {name: data.shape for name, data in found.items()}, DATASETS)
         if in_two is None:
             names = list(found)
-            yield [_column(found[names[place]]) for place in columns.among(names, DATASETS)]
+            datasets = [found[names[place]] for place in columns.among(names, DATASETS)]
+            columns.refuse_units([data.units for data in datasets], alone=True)
+            yield [_column(data) for data in datasets]
             return
         time, table = (found[name] for name in in_two)
+        columns.refuse_units([time.units], alone=True)
         by_rows = rows_first(columns, in_two[1], table.shape, time.shape)
         states = [_of_table(table, place, rows_first=by_rows) for place in range(len(columns.wanted) - 1)]
         yield [_column(time), *states]

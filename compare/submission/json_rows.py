@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import re
+from collections import Counter
 from itertools import chain
 from typing import TYPE_CHECKING, Any
 
@@ -142,8 +143,8 @@ def _rows_of(columns: Columns, found: Any) -> tuple[list[str] | None, list[list[
         ValueError: it is something else, or its columns are not of one length.
     """
     if isinstance(found, dict) and isinstance(found.get("data"), list):
-        names = found.get("columns")  # as pandas writes it with orient="split", or "table"
-        return _rows_of(columns, [names, *found["data"]] if isinstance(names, list) else found["data"])
+        names = _header(columns, found)
+        return _rows_of(columns, found["data"] if names is None else [names, *found["data"]])
     if isinstance(found, dict) and any(isinstance(each, (list, dict)) for each in found.values()):
         return _of_columns(columns, found)
     single = isinstance(found, dict) or not any(isinstance(each, (list, dict)) for each in found)
@@ -159,11 +160,46 @@ def _rows_of(columns: Columns, found: Any) -> tuple[list[str] | None, list[list[
     raise ValueError(f"the file is JSON of something else than rows; {ROWS}.")
 
 
+def _header(columns: Columns, found: dict[str, Any]) -> list[Any] | None:
+    """The names beside an array of rows: under "columns", as pandas writes it with orient="split", or another word."""
+    if isinstance(found.get("columns"), list):
+        names: list[Any] = found["columns"]
+        return names
+    first = found["data"][0] if found["data"] else None
+    width = len(first) if isinstance(first, list) else 0
+    lists = [each for each in found.values() if isinstance(each, list) and len(each) == width]
+    named = [each for each in lists if each and all(isinstance(word, str) and not is_numeric(word) for word in each)]
+    return next((each for each in named if columns.named_by(each)), named[0] if named else None)
+
+
+def _flattened(columns: Columns, found: dict[str, Any]) -> dict[str, Any]:
+    """An object whose objects of arrays are opened, as {"y": {"theta": [...]}} has one; its own names come first.
+
+    Raises:
+        ValueError: two of these have an array that is wanted.
+    """
+    flat = {name: each for name, each in found.items() if not _opens(each)}
+    inner = [item for each in found.values() if _opens(each) for item in each.items() if isinstance(item[1], list)]
+    for name, count in Counter(name for name, _ in inner if name not in flat).items():
+        if count > 1 and name in {*columns.names, USUAL}:
+            raise ValueError(f"there are {count} arrays called {short(name)}; one is accepted.")
+        if count == 1:
+            flat[name] = next(values for each, values in inner if each == name)
+    return flat
+
+
+def _opens(each: Any) -> bool:
+    return isinstance(each, dict) and any(isinstance(values, list) for values in each.values())
+
+
 def _of_columns(columns: Columns, found: dict[str, Any]) -> tuple[list[str], list[list[Any]]]:
     """The names and rows of an object of columns: arrays, or objects by the number of the row, as pandas writes them;
     or one of times and one of states, as SciPy's solvers give them.
     """
-    lists = {name: list(each.values()) if isinstance(each, dict) else each for name, each in found.items()}
+    lists = {
+        name: list(each.values()) if isinstance(each, dict) else each
+        for name, each in _flattened(columns, found).items()
+    }
     lists = {name: each for name, each in lists.items() if isinstance(each, list)}
     time, *state = columns.names
     table = lists.get(USUAL, [])

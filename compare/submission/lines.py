@@ -88,8 +88,14 @@ class Lines:
 
 @contextmanager
 def opened(path: Path) -> Iterator[io.TextIOBase]:
-    """The file as text: UTF-8, or UTF-16 where its first two bytes say so; "-" is the standard input."""
+    """The file as text: UTF-8, or UTF-16 where its first two bytes say so; "-" is the standard input.
+
+    Raises:
+        ValueError: the standard input is closed.
+    """
     if str(path) == STANDARD_INPUT:
+        if sys.stdin is None:
+            raise ValueError("the standard input is closed; a table of text is accepted.")
         yield _decoded(sys.stdin.buffer)
         return
     with path.open("rb") as stream:

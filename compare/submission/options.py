@@ -72,6 +72,6 @@ def _count(text: str, option: str) -> int:
 
 def _mark(text: str) -> str:
     mark = text.strip()
-    if not mark or re.match(r"[+-]?[.,]?\d", mark):
+    if not mark or re.match(r"[+−-]?[.,]?(?:\d|$)", mark):  # a row may begin so
         raise ValueError(f"--comment is '{short(text)}'; what begins a comment is accepted, such as ';' or '//'.")
     return mark

@@ -202,6 +202,7 @@ class Running:
         """
         if self._first is None or self._last is None or self._worst is None:
             raise ValueError("there are no rows; at least one is accepted.")
+        held = self._scales.held(held)
         worst, scaled = self._least(self._worst, self._first, held)
         kept = {point.number: point for point in (*self._kept, worst, scaled, self._last)}
         error, phase, amplitude, energy, *errors = self._maxima

@@ -12,6 +12,8 @@ import math
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
+from compare.submission.written import BINARY64_DIGITS
+
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
@@ -50,6 +52,12 @@ class Scales:
             for log, (mantissa, decade) in zip(self._logs, map(_rounded, self._logs), strict=True)
         )
 
+    def held(self, held: float) -> float:
+        """The digits that the input can hold, at least those of a double where every truth is zero: the significant
+        digits of such numbers, as 1e-8, say nothing of what they hold on a scale of 1.
+        """
+        return max(held, BINARY64_DIGITS) if all(log == -math.inf for log in self._logs) else held
+
     def digits(self, point: Point) -> tuple[float, ...]:
         """The digits of each number of a row on its scale; infinite where it meets the truth, negative beyond scale."""
         return tuple(
@@ -59,6 +67,7 @@ class Scales:
 
     def resolved(self, point: Point, held: float) -> Point:
         """The row with its digits, of which the input can hold ``held``: a truth of zero has them on its scale."""
+        held = self.held(held)
         scaled = [max(0.0, digits) for digits in self.digits(point)]
         own = [b if math.isnan(a) else a for a, b in zip(point.relative, scaled, strict=True)]
         return replace(point, digits=min(*own, held), scaled_digits=min(*scaled, held))

@@ -33,7 +33,7 @@ def score(problem: Problem, t: Any, y: Any) -> Score:
 
     Raises:
         ValueError: times do not increase, shapes do not match, a number is not finite, or angles are in degrees.
-        TypeError: ``problem`` is no problem, or something is no real number.
+        TypeError: ``problem`` is no problem, something is no real number, or an array is masked.
     """
     judge = Judge(problem)
     times = [of_value(value, "t") for value in _listed(t, "t")]
@@ -65,6 +65,8 @@ def _listed(values: Any, name: str) -> list[Any]:
     """A sequence or the first axis of an array as a list, whose numbers keep their types."""
     if isinstance(values, (str, *NO_SEQUENCES)):
         raise TypeError(f"{name} is of type {type(values).__name__}; a sequence or an array is accepted.")
+    if isinstance(values, np.ma.MaskedArray):
+        raise TypeError(f"{name} is a masked array, whose elements need not be numbers; an array is accepted.")
     if hasattr(values, "__array__"):
         array = np.asarray(values)
         if array.ndim == 0:

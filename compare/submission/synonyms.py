@@ -15,7 +15,7 @@ RATES = {"omega": "theta", "angular_velocity": "angle", "arc_rate": "arc", "plac
 """The names of derivatives, and of what they are derivatives."""
 DERIVED = (
     "der({0})", "d({0})/dt", "d({0},t)", "diff({0},t)", "diff({0}(t),t)", "diff({0}(t), t)", "d{0}/dt",
-    "d{0}_dt", "d{0}dt", "{0}dot", "{0}_dot", "{0} dot", "{0}'", "{0}'(t)", "{0}(t)'", "{0}̇",
+    "d{0}_dt", "d{0}dt", "{0}dot", "{0}_dot", "{0} dot", "{0}'", "{0}′", "{0}’", "{0}'(t)", "{0}(t)'", "{0}̇",
     "{0}_prime", "{0}prime", "dot({0})", "dot_{0}", "derivative({0})", "derivative({0}(t), t)",
 )  # fmt: skip
 

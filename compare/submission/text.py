@@ -12,11 +12,10 @@ from compare.submission.block import Blocks
 from compare.submission.chunk import Chunk, Row
 from compare.submission.dialect import Dialect, is_numeric
 from compare.submission.ending import Ending
-from compare.submission.exact_rows import Exact
+from compare.submission.exact_rows import Exact, Times
 from compare.submission.head import is_rule, read_head, trimmed
 from compare.submission.json_rows import is_json, json_table
 from compare.submission.lines import STANDARD_INPUT, Lines, opened, refuse_undecodable
-from compare.submission.written import ROUND_TRIP_DIGITS
 from reference.names import short
 
 if TYPE_CHECKING:
@@ -48,15 +47,11 @@ class TextRows:
     that are empty or begin with #, % or ! are passed over, but a header may begin so.  JSON is read too.
 
     Attributes:
-        times: "as written"; or "binary64" where the states have no more digits than doubles have: then a time is the
-            double that it spells, as it was in the program that wrote it.
         notes: sentences on what did not count, or may be amiss.
     """
 
-    def __init__(self, columns: Columns, passed: Passed, *, as_written: bool) -> None:
-        self._columns, self._passed = columns, passed
-        self._as_written = as_written
-        self.times = "as written"
+    def __init__(self, columns: Columns, passed: Passed, times: Times) -> None:
+        self._columns, self._passed, self._times = columns, passed, times
         self.notes: list[str] = []
 
     def chunks(self, path: Path, size: int) -> Iterator[Chunk]:
@@ -72,10 +67,10 @@ class TextRows:
             tail: deque[Line] = deque(maxlen=TAIL)
             while table is not None and (batch := list(islice(rest, size))):
                 if not begun:
-                    self._decide(table, batch)
+                    self._times.decide(number for line in batch for number in table.row(line).state)
                 begun = True
                 tail.extend(batch)
-                yield table.chunk(batch, doubles=self.times == "binary64")
+                yield table.chunk(batch, doubles=self._times.doubles)
             if not begun:
                 raise ValueError(f"{_shown(path)} has no rows; a row for each time is accepted.")
             if table is not None:
@@ -94,12 +89,6 @@ class TextRows:
         self.notes += head.notes
         table = Table(self._columns, head, lines.comments)
         return table, table.rows(chain(head.taken, lines))
-
-    def _decide(self, table: Table | JsonTable, batch: Sequence[Line]) -> None:
-        """Decide how times are read, by the digits of the first states."""
-        most = max(number.digits for line in batch for number in table.row(line).state)
-        if not self._as_written and most <= ROUND_TRIP_DIGITS:
-            self.times = "binary64"
 
 
 class Table:
@@ -168,7 +157,7 @@ class Table:
     def _hint(self, text: str, words: Sequence[str]) -> str:
         """What a line with other fields than the first may be, and what would read it."""
         mark = MARK.match(text)
-        if mark:
+        if mark and mark[0].isprintable():
             return f"; if it is a comment, --comment {shlex.quote(short(mark[0]))} would pass over it"
         found = self._dialect.hint(text, len(words), self._width)
         if found:

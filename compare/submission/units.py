@@ -16,9 +16,11 @@ SECONDS = {
     "us": "1e-6", "µs": "1e-6", "usec": "1e-6", "microsecond": "1e-6", "microseconds": "1e-6",
     "ns": "1e-9", "nanosecond": "1e-9", "nanoseconds": "1e-9",
     "min": "60", "minute": "60", "minutes": "60", "h": "3600", "hr": "3600", "hour": "3600", "hours": "3600",
+    "day": "86400", "days": "86400",
 }  # fmt: skip
 RADIANS = {
     "rad": "1", "rads": "1", "radian": "1", "radians": "1", "mrad": "0.001", "µrad": "1e-6", "urad": "1e-6",
+    "krad": "1000",
     "deg": "pi/180", "degs": "pi/180", "degree": "pi/180", "degrees": "pi/180", "°": "pi/180", "º": "pi/180",
     "grad": "pi/200", "gon": "pi/200", "arcmin": "pi/10800", "arcsec": "pi/648000",
     "rev": "2*pi", "revs": "2*pi", "turn": "2*pi", "turns": "2*pi", "cycles": "2*pi",
@@ -28,17 +30,18 @@ BASES = {"s": SECONDS, "rad": RADIANS, "m": METRES}
 WHOLE = {
     "rpm": ("rad s-1", "pi/30"),
     "1": ("1", "1"),
-    "1/s": ("s-1", "1"),
-    "s-1": ("s-1", "1"),
     "hz": ("rad s-1", "2*pi"),
 }
 """Units that are no quotient of the others."""
 LONGEST = 80
 """Characters of a name that says its unit."""
 OVER = "|".join(sorted(SECONDS, key=len, reverse=True))
+RECIPROCALS = {"1": "1", "0.001": "1000", "1e-6": "1e6", "1e-9": "1e9"}
+"""What a factor below is above."""
+INVERSE = re.compile(rf"1?(?:/|per)(?P<over>{OVER})|(?P<inverse>{OVER})-1")
 QUOTIENT = re.compile(rf"(?P<of>\D+?)(?:(?:/|per)(?P<over>{OVER})|(?P<inverse>{OVER})-1)")
 BRACKETS = re.compile(r"(?P<name>.*?)\s*(?:\[(?P<square>[^][]*)\]|\((?P<round>[^()]*)\)|\{(?P<brace>[^{}]*)\})")
-QUANTITY = re.compile(r"(?P<name>[^/,]+?)\s*[/,]\s*(?P<unit>.+)")
+QUANTITY = re.compile(r"(?P<name>(?:[^][(){}/,]|\([^()]*\)|\[[^][]*\])+?)\s*[/,]\s*(?P<unit>.+)")
 """A quantity and its unit as ISO 80000 writes them, theta/rad; or after a comma."""
 SUFFIX = re.compile(
     r"(?P<name>.+?)_(?:in_)?(?P<unit>s|sec|ms|us|ns|min|m?rad|deg(?:rees)?|(?:m?rad|deg|m)_(?:per_)?s|mm|cm)"
@@ -65,15 +68,27 @@ def unit(text: str) -> Unit | None:
     for base, names in BASES.items():
         if bare in names:
             return Unit(base, names[bare])
+    return _quotient(bare)
+
+
+def _quotient(bare: str) -> Unit | None:
+    """The unit that is another over a time; None where it is none that is known."""
+    if match := INVERSE.fullmatch(bare):
+        return Unit("s-1", _over("1", match))
     match = QUOTIENT.fullmatch(bare)
-    over = (match["over"] or match["inverse"]) if match else ""
-    if match is None:
-        return None
     for base, names in BASES.items():
-        if match["of"] in names:
-            factor, divisor = names[match["of"]], SECONDS[over]
-            return Unit(f"{base} s-1", factor if divisor == "1" else f"{factor}/{divisor}")
+        if match and match["of"] in names:
+            return Unit(f"{base} s-1", _over(names[match["of"]], match))
     return None
+
+
+def _over(factor: str, match: re.Match[str]) -> str:
+    """A factor over that of the time which a quotient names."""
+    divisor = SECONDS[match["over"] or match["inverse"]]
+    if divisor not in RECIPROCALS:
+        return f"{factor}/{divisor}"
+    times = RECIPROCALS[divisor]
+    return factor if times == "1" else times if factor == "1" else f"{factor}*{times}"
 
 
 def split_name(name: str) -> Iterator[tuple[str, str]]:

@@ -18,7 +18,7 @@ from compare.submission.spellings import hexadecimal, spelled
 from reference.exact import MAX_DIGITS, as_number, exact
 from reference.names import short
 
-__all__ = ["LOG10_2", "ROUND_TRIP_DIGITS", "Written", "of_decimal", "of_value"]
+__all__ = ["BINARY64_DIGITS", "LOG10_2", "ROUND_TRIP_DIGITS", "Written", "of_decimal", "of_value"]
 
 LOG10_2 = math.log10(2)
 BINARY64_DIGITS = 53 * LOG10_2
@@ -102,7 +102,7 @@ def of_value(value: Any, name: str = "value") -> Written:
         return Written(Fraction(value), repr(value), BINARY64_DIGITS)
     if isinstance(value, str) or (isinstance(value, Decimal) and value.is_finite()):
         return of_decimal(str(value), name)
-    if hasattr(value, "man_exp"):
+    if hasattr(type(value), "man_exp"):  # it raises of what is not finite
         return _of_mpmath(value, name)
     if type(value).__module__.startswith("heyoka"):
         return _of_heyoka(value, name)

@@ -4,11 +4,14 @@ from __future__ import annotations
 
 import math
 from contextlib import contextmanager
+from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import h5py
+import numpy as np
 
 from reference.names import LENGTH, short
+from reference.store.foreign import MOST_ATTRIBUTES, Said, attribute_bytes, said_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
@@ -58,17 +61,61 @@ class ForeignColumn:
             ValueError: they cannot be read, or are of numbers or chunks that are too large to be any.
         """
         self._refuse_wrong_size()
+        self._refuse_other_numbers()
         with told(self._path, self._name):
             data = self._data.asstr() if self.is_text else self._data
             if self._field is not None:
                 data = data.fields(self._field)
-            return data[0, rows] if self._one_row else data[rows, 0] if self._one_column else data[rows]
+            found = data[0, rows] if self._one_row else data[rows, 0] if self._one_column else data[rows]
+        self._refuse_missing(found)
+        return found
+
+    @property
+    def units(self) -> str:
+        """What the dataset says of its units; "" where it says nothing."""
+        return "" if self._field is not None else self._said.units
+
+    @cached_property
+    def _said(self) -> Said:
+        """What the dataset says of its numbers.
+
+        Raises:
+            ValueError: its attributes are too large, or damaged.
+        """
+        with told(self._path, self._name):
+            size = attribute_bytes(self._data)
+        if size > MOST_ATTRIBUTES:
+            raise ValueError(f"{self._where} has attributes of {size} bytes; {MOST_ATTRIBUTES} are accepted.")
+        with told(self._path, self._name):
+            return said_of(self._data)
+
+    @property
+    def _where(self) -> str:
+        return f"the dataset {short(self._name)} of '{self._path}'"
+
+    def _refuse_other_numbers(self) -> None:
+        """Refuse numbers that are not in the dataset as they are meant."""
+        if self._said.elsewhere:
+            raise ValueError(f"{self._where} has its numbers in another file; numbers in the file itself are accepted.")
+        if self._said.packed_by:
+            raise ValueError(
+                f"{self._where} is packed, with the attribute {self._said.packed_by}; numbers as they are meant are "
+                "accepted."
+            )
+
+    def _refuse_missing(self, found: Any) -> None:
+        for number in () if self.is_text or self._field is not None else self._said.missing:
+            if np.any(found == number):
+                raise ValueError(
+                    f"{self._where} has {number:g}, which stands there for a missing number; a number for each time is "
+                    "accepted."
+                )
 
     def _refuse_wrong_size(self) -> None:
         with told(self._path, self._name):
             item, held = self._data.id.get_type().get_size(), self._data.id.get_storage_size()
             chunks, declared = self._data.chunks, item * self._data.size
-        where = f"the dataset {short(self._name)} of '{self._path}'"
+        where = self._where
         written = {0, declared}  # what was never written takes nothing
         if chunks is None and held not in written and not self._data.dtype.hasobject:
             raise ValueError(

@@ -109,7 +109,8 @@ ARRAYS = (
 def test_arrays_are_read_from_numpys_files_and_from_hdf5(name, tmp_path, capsys):
     array_files(tmp_path)
     found = summary(tmp_path / name, capsys)
-    assert (found["rows"], found["worst_row"], found["times"]) == (40, 31, "as written")
+    times = "binary64" if name.startswith("strings") else "as written"
+    assert (found["rows"], found["worst_row"], found["times"]) == (40, 31, times)
     assert found["max_error"] == pytest.approx(OFF, rel=1e-9)
 
 
