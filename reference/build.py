@@ -128,7 +128,7 @@ class Standing:
 
 
 def _status(target: Path) -> os.stat_result | None:
-    return target.stat() if target.exists() else None
+    return target.stat() if target.is_file() else None
 
 
 def _ensure_space(plan: Plan, target: Path) -> None:
@@ -233,7 +233,8 @@ def provenance() -> dict[str, str]:
     epoch = os.environ.get("SOURCE_DATE_EPOCH")
     if epoch is not None:
         if not (epoch.isascii() and epoch.isdecimal()) or len(epoch) > 11:
-            raise ValueError(f"SOURCE_DATE_EPOCH is '{epoch}'; a whole number of seconds since 1970 is accepted.")
+            accepted = "a whole number of seconds since 1970, of 11 digits at most, is accepted"
+            raise ValueError(f"SOURCE_DATE_EPOCH is '{epoch}'; {accepted}.")
         found["date"] = datetime.fromtimestamp(int(epoch), UTC).isoformat()
     return found
 

@@ -8,7 +8,7 @@ import re
 import stat
 from contextlib import contextmanager
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, BinaryIO
 
 from reference.store.errors import DatasetError
 from reference.store.files import sha256, write_bytes
@@ -25,6 +25,8 @@ ESCAPED = {"\\": "\\\\", "\n": "\\n", "\r": "\\r"}
 """In a name; such a line begins with a backslash."""
 UNESCAPED = {escape: letter for letter, escape in ESCAPED.items()}
 ESCAPES = re.compile(r"\\[\\nr]")
+LONGEST = 1 << 24
+"""Bytes of a list that are read: the lines of more than 50,000 files with the longest names."""
 
 
 @dataclass(frozen=True)
@@ -34,6 +36,18 @@ class Line:
     text: str
     name: str = ""
     digest: str = ""
+
+
+def _read(stream: BinaryIO, listing: Path) -> bytes:
+    """The bytes of a list.
+
+    Raises:
+        DatasetError: they are more than a list of checksums has, which would only cost memory.
+    """
+    data = stream.read(LONGEST + 1)
+    if len(data) > LONGEST:
+        raise DatasetError(f"'{listing}' is longer than {LONGEST >> 20} MiB, no list of checksums; move it elsewhere.")
+    return data
 
 
 def _lines(data: bytes, listing: Path) -> list[Line]:
@@ -74,7 +88,8 @@ def checksums(folder: Path) -> dict[str, str]:
             return {}
         if not listing.is_file():
             raise DatasetError(f"'{listing}' is not a regular file; remove it.")
-        data = listing.read_bytes()
+        with listing.open("rb") as stream:
+            data = _read(stream, listing)
     except OSError as error:
         raise DatasetError(f"'{listing}' cannot be read ({error.strerror}); restore it or remove it.") from None
     return {line.name: line.digest for line in _lines(data, listing) if line.digest}
@@ -143,7 +158,7 @@ def _held(listing: Path) -> Iterator[bytes]:
             if not listing.exists() or not os.path.samestat(listing.lstat(), status):
                 continue  # replaced while it was waited for
             with os.fdopen(os.dup(handle), "rb") as stream:
-                data = stream.read()
+                data = _read(stream, listing)
             try:
                 yield data
             except BaseException:

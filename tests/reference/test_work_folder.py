@@ -7,6 +7,7 @@ import json
 import os
 import subprocess
 import sys
+import tracemalloc
 from pathlib import Path
 
 import pytest
@@ -18,6 +19,7 @@ from reference import build as building
 from reference.build import build
 from reference.marked import PlaceError, abandoned, made
 from reference.partial import partial
+from reference.store.checksums import checksums
 from reference.terminal import run
 
 ROOT = Path(reference.__file__).parents[1]
@@ -159,6 +161,15 @@ def test_a_build_that_cannot_take_its_place_leaves_the_old_file_with_its_checksu
     assert snapshot(tmp_path) == before
 
 
+def test_a_folder_that_takes_the_output_s_place_under_way_is_not_taken_for_the_file(tmp_path, capsys, monkeypatch):
+    out = tmp_path / "x.h5"
+    compute = building.compute
+    monkeypatch.setattr(building, "compute", lambda block: out.mkdir(exist_ok=True) or compute(block))
+    assert refused(capsys, out) == f"error: '{out}' was not written: Is a directory; nothing was left behind.\n"
+    assert out.is_dir()
+    assert leftovers(tmp_path) == ["x.h5"]
+
+
 def test_hidden_folders_are_cleared_where_they_are_ours_and_their_process_has_ended(tmp_path):
     (tmp_path / ".horologium-01234567").mkdir()
     their_folder(tmp_path / ".horologium-89abcdef")
@@ -200,7 +211,8 @@ def test_an_output_may_have_as_long_a_name_as_fits(tmp_path):
 @pytest.mark.parametrize("epoch", ["today", "", "-1", "1.5", "١٢", "9" * 12])
 def test_a_date_that_is_no_number_is_told_before_the_proof(tmp_path, monkeypatch, capsys, epoch):
     monkeypatch.setenv("SOURCE_DATE_EPOCH", epoch)
-    assert f"SOURCE_DATE_EPOCH is '{epoch}'" in refused(capsys, tmp_path / "x.h5")
+    told = f"SOURCE_DATE_EPOCH is '{epoch}'; a whole number of seconds since 1970, of 11 digits at most, is accepted."
+    assert told in refused(capsys, tmp_path / "x.h5")
     assert leftovers(tmp_path) == []
 
 
@@ -232,6 +244,22 @@ def test_a_list_of_checksums_that_cannot_be_kept_is_told_before_the_proof(tmp_pa
     before = snapshot(tmp_path)
     assert words in refused(capsys, tmp_path / "x.h5")
     assert snapshot(tmp_path) == before
+
+
+@pytest.mark.usefixtures("no_work")
+def test_a_list_of_checksums_without_end_is_refused_before_it_costs_memory(tmp_path, capsys):
+    listing = tmp_path / "SHA256SUMS"
+    with listing.open("wb") as stream:
+        stream.truncate(1 << 40)
+    tracemalloc.start()
+    told = refused(capsys, tmp_path / "x.h5")
+    with pytest.raises(ValueError, match="longer than 16 MiB, no list of checksums; move it elsewhere"):
+        checksums(tmp_path)
+    peak = tracemalloc.get_traced_memory()[1]
+    tracemalloc.stop()
+    assert told == f"error: '{listing}' is longer than 16 MiB, no list of checksums; move it elsewhere.\n"
+    assert peak < 1 << 27
+    assert listing.stat().st_size == 1 << 40
 
 
 def test_a_build_lists_its_blocks_once_and_tells_of_its_progress_before_it_proves(tmp_path, monkeypatch):
