@@ -129,7 +129,8 @@ class Judge:
     def _notes(self, running: Running) -> tuple[str, ...]:
         """What could not be judged, or is to be known of it, in sentences."""
         lacking, lost = remark(self.problem), running.lost
-        notes = [lacking] if lacking else []
+        notes = [f"{constant}." for constant in self.problem.constants]
+        notes += [lacking] if lacking else []
         if lost is not None and not (lacking and self._phaseless):
             notes.append(
                 f"Row {lost.number}, {self.time} = {lost.t}, is the first whose state is on no orbit of the exact "

@@ -169,3 +169,13 @@ def test_every_format_tells_both_kinds_of_digits(tmp_path, capsys):
     assert main(["score", str(tmp_path / "a.npy"), "--theta0", "1", "--format", "csv"]) == 0
     rows = list(csv.DictReader(io.StringIO(capsys.readouterr().out)))
     assert float(rows[0]["digits"]) == found["points"][0]["digits"]
+
+
+def test_the_constant_behind_a_body_is_shown_with_its_source(tmp_path, capsys):
+    path = tmp_path / "fall.csv"
+    path.write_text("tau,z,z_rate,phi\n0,1,0,0\n")
+    options = ["score", str(path), "--problem", "polar", "--z0", "0.5", "--r0", "6.371e6", "--body", "earth"]
+    assert main(options) == 0
+    assert "gm = 398600400000000 m3 s-2 (nominal terrestrial mass parameter, IAU 2015" in capsys.readouterr().out
+    assert main([*options, "--format", "json"]) == 0
+    assert "IAU 2015 Resolution B3" in json.loads(capsys.readouterr().out)["notes"][0]
