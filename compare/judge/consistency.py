@@ -78,9 +78,8 @@ def _advances(candidate: Candidate, scene: _Straight, h: float) -> np.ndarray:
 def uses(candidate: Candidate, scene: Scene, h: float) -> bool:
     """Whether an integrator moves otherwise where f is another one: one with its motion built in may call f in vain."""
     try:
-        return not np.array_equal(
-            *(_moved(candidate, one, scene.start, h) for one in (scene, _Straight(scene.problem)))
-        )
+        here, there = (_moved(candidate, one, scene.start, h) for one in (scene, _Straight(scene.problem)))
+        return not np.array_equal(here, there)
     except (MisuseError, Exhausted):
         return True  # the other f makes it fail
 
