@@ -10,22 +10,8 @@ from compare.__main__ import main
 
 
 def test_the_phase_of_a_march_that_is_damped_away_is_that_of_the_stability_function(capsys):
-    words = [
-        "pendulum",
-        "--theta0",
-        "1e-9",
-        "--n",
-        "64",
-        "--t-end",
-        "50",
-        "--methods",
-        "rk4",
-        "--scores",
-        "phase",
-        "--quiet",
-        "--format",
-        "json",
-    ]
+    march = ["--theta0", "1e-9", "--n", "64", "--t-end", "50", "--methods", "rk4"]
+    words = ["pendulum", *march, "--scores", "phase", "--quiet", "--format", "json"]
     assert main(words) == 0
     row = json.loads(capsys.readouterr().out)["tables"]["phase"][0]
     z = 1j * math.sqrt(9.81) * row["h"]
