@@ -33,6 +33,8 @@ __all__ = ["SPARE_BITS", "Run", "as_balls", "exactly"]
 
 SPARE_BITS = 64
 """Bits beyond those of the format to which places on orbits are found."""
+SMALL = 0.25
+"""A state with a component below this part of its error is held by itself."""
 
 
 @dataclass(frozen=True)
@@ -111,13 +113,20 @@ def _places(course: Course, known: Orbits, states: np.ndarray) -> list[Place]:
     with np.errstate(over="ignore", invalid="ignore"):
         errors = course.errors(states)
     return [
-        known.place(_state(truth, error)) if np.isfinite(error).all() else NOWHERE
-        for truth, error in zip(course.truth, errors, strict=True)
+        known.place(_state(truth, error, state)) if np.isfinite(error).all() else NOWHERE
+        for truth, error, state in zip(course.truth, errors, states, strict=True)
     ]
 
 
-def _state(truth: np.ndarray, error: np.ndarray) -> Sequence[arb]:
-    """A state as the truth and its error, which no format but balls holds together."""
+def _state(truth: np.ndarray, error: np.ndarray, state: np.ndarray) -> Sequence[arb]:
+    """A state as the truth and its error, which no format but balls holds together.
+
+    Where a component has become far smaller than the truth, its error has lost it: then it is the state by itself.
+    """
+    if np.any((np.abs(state) < np.abs(error) * SMALL) & (state != 0)):
+        alone = as_balls(state)
+        if alone is not None:
+            return alone
     return [sum(map(arb, limbs), arb(off)) for limbs, off in zip(truth.tolist(), error.tolist(), strict=True)]
 
 

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from compare.judge.candidate import Candidate
-from compare.judge.consistency import advance_of_a_constant_slope, iterates
+from compare.judge.consistency import advance_of_a_constant_slope, iterates, uses
 from compare.judge.courses import Steps, Whole
 from compare.judge.deadline import TimeOut, deadline
 from compare.judge.defects import Evidence, reversibility, symplecticity
@@ -124,9 +124,17 @@ def _checked(candidate: Candidate, claims: Claims, scene: Scene, until: float) -
     marcher, calls, timed, name = _marcher(candidate, scene, h)
     counts = ladder(_most_steps(marcher, calls))
     still = measured(marcher, SPAN * h, counts, until)
-    if not any(math.isfinite(cell.error) for cell in still.cells):
+    finest = still.cells[-1]
+    if not math.isfinite(finest.error):
+        some = any(math.isfinite(cell.error) for cell in still.cells)
         raise MisuseError(
-            f"{candidate.name} gives no finite states however short its steps are; finite ones are accepted."
+            f"{candidate.name} gives no finite states "
+            + (
+                f"with steps of h = {finest.h:.3g}, though it does with longer ones"
+                if some
+                else "however short its steps are"
+            )
+            + "; finite ones are accepted."
         )
     if still.kind == "own steps" and claims.order is not None:
         raise MisuseError(
@@ -159,16 +167,18 @@ def _checked(candidate: Candidate, claims: Claims, scene: Scene, until: float) -
         symplecticity=symplecticity(marcher, h, evidence),
         reversibility=reversibility(marcher, h, evidence),
         energy=kept,
-        heading=_heading(candidate, marcher, h, calls),
+        heading=_heading(candidate, marcher, h),
         powers=series,
         advance=advance_of_a_constant_slope(candidate, scene, h) if explicit else None,
     )
     return replace(found, hint=_hint(found, marcher, SPAN * h))
 
 
-def _heading(candidate: Candidate, marcher: Marcher, h: float, calls: float) -> Heading:
-    """Of a step; of a whole integrator only whether it calls f is known."""
-    return replace(UNTRIED, calls=calls > 0) if marcher.whole else heading(candidate, marcher.scene, h)
+def _heading(candidate: Candidate, marcher: Marcher, h: float) -> Heading:
+    """Of a step; of a whole integrator only whether it makes use of f is known."""
+    if marcher.whole:
+        return replace(UNTRIED, uses=uses(candidate, marcher.scene, h))
+    return heading(candidate, marcher.scene, h)
 
 
 def _hint(found: Check, marcher: Marcher, t_end: float) -> str | None:

@@ -1,4 +1,4 @@
-"""What a step does where the slope is constant, and whether it asks for more or fewer slopes as it iterates."""
+"""What a step does where the slope is another one, or constant, and whether it asks for more slopes as it iterates."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from compare.judge.courses import Marcher
     from reference.arithmetic import Arithmetic
 
-__all__ = ["advance_of_a_constant_slope", "iterates"]
+__all__ = ["advance_of_a_constant_slope", "iterates", "uses"]
 
 ROUNDING, NARROW_ROUNDING = 1e-12, 1e-6
 """A relative error of the advance up to this is rounding, or up to the second where the step works in binary32."""
@@ -73,6 +73,21 @@ def _advances(candidate: Candidate, scene: _Straight, h: float) -> np.ndarray:
     advance = np.where(np.isfinite(part), part / h, 1.0)
     narrow = np.array_equal(found, found.astype(np.float32).astype(np.float64))
     return np.where(np.abs(advance - 1) < NARROW_ROUNDING, 1.0, advance) if narrow else advance
+
+
+def uses(candidate: Candidate, scene: Scene, h: float) -> bool:
+    """Whether an integrator moves otherwise where f is another one: one with its motion built in may call f in vain."""
+    try:
+        here, there = (_moved(candidate, one, scene.start, h) for one in (scene, _Straight(scene.problem)))
+        return not np.array_equal(here, there)
+    except (MisuseError, Exhausted):
+        return True  # the other f makes it fail
+
+
+def _moved(candidate: Candidate, scene: Scene, y: np.ndarray, h: float) -> np.ndarray:
+    if candidate.form.whole:
+        return candidate.states(candidate.field(scene, GRID), y, h * np.arange(GRID))
+    return Lanes(candidate, scene).one(y, h, 0.0)
 
 
 def iterates(candidate: Candidate, marcher: Marcher, h: float) -> bool:

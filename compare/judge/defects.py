@@ -22,12 +22,15 @@ ROUNDING = 1e-11
 """A defect up to this is rounding."""
 FACTORS = (0.5, 1, 2)
 """Steps with which a defect is measured, over h."""
-TOLERATED, GROWTH = 1e-5, 256.0
+TOLERATED, GROWTH = 1e-5, 4096.0
 """A defect up to the first that grows over FACTORS by less than the second may be what the tolerance of an inner
-iteration leaves: one of the method that is so small is of a high power of the step, and grows by thousands."""
+iteration leaves: that varies fifty times with the step, and fifty times with whether the number of iterations changes
+along the stencil; a defect of the method that is so small is of a high power of the step, and mostly grows by more."""
 STATES = 4
 """States at which a defect is measured."""
 STEPS_BACK = 32
+STEPS_OF_A_GRID = 12
+"""Steps over which a whole integrator's map is differentiated: its first ones may be another method's."""
 STENCIL = (5 / 6, -5 / 21, 5 / 84, -5 / 504, 1 / 1260)
 """f'(x) = sum_k c_k (f(x + k d) - f(x - k d))/d, k = 1 ... 5, to order 10 (B. Fornberg, Math. Comp. 51, 1988, 699)."""
 SPACING = 1 / 50
@@ -73,8 +76,12 @@ def _judged(sizes: Sequence[float], signed: np.ndarray, h: float, evidence: Evid
     if sizes[-1] <= ROUNDING:
         return Defect(sizes[1], h, none=True)
     both_ways = bool(np.min(signed) < 0 < np.max(signed))
-    if max(sizes) <= min(TOLERATED, GROWTH * sizes[0]) and evidence.possible and evidence.bounded and both_ways:
-        return Defect(sizes[1], h, none=evidence.iterates, tolerance=evidence.iterates, undecided=not evidence.iterates)
+    steady = max(sizes) <= GROWTH * sizes[0]
+    if max(sizes) <= TOLERATED and evidence.possible and evidence.bounded and both_ways:
+        if steady != evidence.iterates:
+            return Defect(sizes[1], h, none=False, undecided=True)
+        if steady:
+            return Defect(sizes[1], h, none=True, tolerance=True)
     return Defect(sizes[1], h, none=False) if sizes[1] > ROUNDING else Defect(sizes[-1], FACTORS[-1] * h, none=False)
 
 
@@ -101,7 +108,10 @@ def _largest(defects: np.ndarray) -> list[float]:
 
 
 def symplecticity(marcher: Marcher, h: float, evidence: Evidence) -> Defect:
-    """|det d(step)/dy - 1|, exact but for rounding where the step is compiled, else by differences of order ten."""
+    """|det d(step)/dy - 1|, exact but for rounding where the step is compiled, else by differences of order ten.
+
+    Of a whole integrator it is that of the map over several steps.
+    """
     y, sizes = _trials(marcher, h)
     if isinstance(marcher, Steps) and isinstance(marcher.engine, Traced):
         jacobians = marcher.engine.jacobian(y, sizes)
@@ -119,7 +129,7 @@ def _differences(marcher: Marcher, y: np.ndarray, h: np.ndarray) -> np.ndarray:
     spacings = SPACING * np.max(np.abs(y), axis=1)
     shifts = [(i, k) for i in range(d) for k in range(-len(STENCIL), len(STENCIL) + 1) if k]
     moved = [y + (k * spacings[i] * np.eye(d)[i])[:, None] for i, k in shifts]
-    after = _after_one_step(marcher, np.hstack(moved), np.tile(h, len(shifts)))
+    after = _after(STEPS_OF_A_GRID if marcher.whole else 1, marcher, np.hstack(moved), np.tile(h, len(shifts)))
     jacobians = np.zeros((d, d, lanes))
     for place, (i, k) in enumerate(shifts):
         weight = np.sign(k) * STENCIL[abs(k) - 1] / spacings[i]
@@ -127,8 +137,8 @@ def _differences(marcher: Marcher, y: np.ndarray, h: np.ndarray) -> np.ndarray:
     return jacobians
 
 
-def _after_one_step(marcher: Marcher, y: np.ndarray, h: np.ndarray) -> np.ndarray:
-    return np.stack([states[0] for states in marcher.states(y, h, [[1]] * len(h))], axis=1)
+def _after(steps: int, marcher: Marcher, y: np.ndarray, h: np.ndarray) -> np.ndarray:
+    return np.stack([states[0] for states in marcher.states(y, h, [[steps]] * len(h))], axis=1)
 
 
 def reversibility(marcher: Marcher, h: float, evidence: Evidence) -> Defect:
@@ -141,4 +151,5 @@ def reversibility(marcher: Marcher, h: float, evidence: Evidence) -> Defect:
         y = flip * np.stack([states[-1] for states in marcher.states(y, sizes, [[STEPS_BACK]] * len(sizes))], axis=1)
     with np.errstate(all="ignore"):
         gained = marcher.scene.energy(y.T) - marcher.scene.energy(start.T)
-    return _judged(_largest(np.abs(y - start) / np.max(np.abs(start), axis=1)[:, None]), gained, h, evidence)
+    away = np.abs(y - start) / np.max(np.abs(start), axis=1)[:, None]
+    return _judged(_largest(away), gained, h, evidence)

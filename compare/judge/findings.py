@@ -132,7 +132,7 @@ class Findings:
     def consistent(self) -> bool:
         """Whether it goes along f, forwards, and advances a constant slope by h, as far as that was tried."""
         lost = self.form == "integrator" and self.still.kind == "flat"
-        return self.heading.consistent and self.heading.calls and not lost and self._advances
+        return self.heading.consistent and self.heading.uses and not lost and self._advances
 
     @property
     def _advances(self) -> bool:

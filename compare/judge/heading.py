@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
+from compare.judge.consistency import uses
 from compare.judge.engine import Lanes, trial_states
 from compare.judge.field import Exhausted, MisuseError
 from reference.arithmetic import NUMPY
@@ -41,13 +42,13 @@ class Heading:
         consistent: whether a step forward goes along f.
         backward: whether a step with h < 0 goes back along f as well: "refused" where it raises or gives no finite
             state, "untried" where there is no such step.
-        calls: whether it ever calls f.
+        uses: whether what f gives makes a difference to it.
         cause: what explains a step that does not go along f, where that is known.
     """
 
     consistent: bool
     backward: Backward
-    calls: bool = True
+    uses: bool = True
     cause: str | None = None
 
 
@@ -65,14 +66,14 @@ def heading(candidate: Candidate, scene: Scene, h: float) -> Heading:
     y = -scene.errors([Fraction(float(t)) for t in times], np.zeros((len(times), scene.dimension)))
     trial = _Trial(candidate, scene, times, y)
     slopes = trial.slope(h / SHORTER)
-    calls = trial.plain.field.calls > 0
+    used = uses(candidate, scene, h)
     consistent = trial.along(slopes, trial.slope(h / SHORT))
     cause = None if consistent else _cause(slopes, trial.rates, scene.problem.positions)
     try:
         back = trial.along(trial.slope(-h / SHORTER), trial.slope(-h / SHORT)) and trial.as_good_back(h / 2)
     except (MisuseError, Exhausted):
-        return Heading(consistent, "refused", calls, cause)
-    return Heading(consistent, "right" if back else "wrong", calls, cause)
+        return Heading(consistent, "refused", used, cause)
+    return Heading(consistent, "right" if back else "wrong", used, cause)
 
 
 class _Trial:

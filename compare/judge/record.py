@@ -38,8 +38,8 @@ class Check(Findings):
     def _why_inconsistent(self) -> str:
         if self.heading.cause is not None:
             return self.heading.cause
-        if not self.heading.calls:
-            return "it never calls f, and moves the same way whatever f is"
+        if not self.heading.uses:
+            return "it makes no use of f, and moves the same way whatever f is"
         if self.advance is not None and self.advance != 1:
             return f"a constant slope is advanced by {self.advance:.12g} h"
         return "a short step does not go along f"
