@@ -25,9 +25,9 @@ FOLLOWING = 0.5
 
 def serve(handle: int, told: str) -> None:
     """Answer a request through the pipe with this number, and end; a copy that the step has forked says nothing."""
-    threading.Thread(target=_follow, args=(os.getppid(),), daemon=True).start()
-    _first_to_go_where_memory_ends()
     line = _Line(handle)
+    threading.Thread(target=_follow, args=(os.getppid(), line), daemon=True).start()
+    _first_to_go_where_memory_ends()
     try:
         line.say(_answer(line, json.loads(told)))
         code = 0
@@ -48,6 +48,11 @@ class _Line:
     def __init__(self, handle: int) -> None:
         self._handle, self._process, self._pipe = handle, os.getpid(), _identity(handle)
 
+    @property
+    def closed(self) -> bool:
+        """Whether the step closed the pipe."""
+        return _identity(self._handle) != self._pipe
+
     def say(self, message: dict[str, Any]) -> None:
         """Send a message.
 
@@ -56,7 +61,7 @@ class _Line:
         """
         if os.getpid() != self._process:
             os._exit(0)
-        if _identity(self._handle) != self._pipe:
+        if self.closed:
             raise ClosedError
         left = json.dumps(message).encode() + b"\n"
         while left:
@@ -97,9 +102,14 @@ def _answer(line: _Line, request: dict[str, Any]) -> dict[str, Any]:
     return {"text": text, "code": EXIT_CODES[found.claims_hold]}
 
 
-def _follow(parent: int) -> None:
-    """End with the process that asked, however that ends."""
+def _follow(parent: int, line: _Line) -> None:
+    """End with the process that asked, however that ends, and where the answer cannot be sent.
+
+    A compiler whose files the step closed with the others may wait for ever.
+    """
     while os.getppid() == parent:
+        if line.closed:
+            os._exit(CLOSED)
         time.sleep(FOLLOWING)
     os.killpg(0, signal.SIGKILL)
 
