@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from compare.judge.field import Field, MisuseError
+from reference.names import printable
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -19,6 +20,8 @@ __all__ = ["Candidate"]
 
 MAX_CALLS = 10_000
 """Calls of f that one step, or each time of a grid, may take."""
+MOST_TOLD = 400
+"""Characters of what a user's exception says that are repeated."""
 
 
 @dataclass(frozen=True)
@@ -83,6 +86,8 @@ class Candidate:
             array = np.asarray(found)
         except ValueError:
             raise MisuseError(f"{what} returned a ragged sequence; a state as it was given is accepted.") from None
+        except MemoryError:
+            raise MisuseError(f"{what} returned a sequence that no memory holds; a state is accepted.") from None
         if array.dtype.kind == "c":
             raise MisuseError(f"{what} returned complex numbers; real ones are accepted.")
         if array.dtype.kind not in "fiu":
@@ -96,7 +101,7 @@ class Candidate:
         except MisuseError:
             raise
         except (Exception, SystemExit) as error:
-            told = " ".join(str(error).split())
+            told = _told(error)
             raise MisuseError(f"{self.name} raised {type(error).__name__}{': ' * bool(told)}{told}.") from error
 
     def _joined(self, found: Any, y: Any) -> Any:
@@ -123,6 +128,15 @@ class _Forces:
         zeros = np.zeros((self._field.scene.dimension - positions, *q.shape[1:]))
         state = np.concatenate([q.reshape(positions, *q.shape[1:]), zeros.astype(q.dtype)])
         return self._field(state)[positions:]
+
+
+def _told(error: BaseException) -> str:
+    """What an exception says, in one line of no more than MOST_TOLD characters; nothing where it cannot say it."""
+    try:
+        told = printable(" ".join(str(error)[: MOST_TOLD + 1].split()))
+    except (Exception, SystemExit):  # noqa: BLE001 - a user's own __str__ may raise anything
+        return ""
+    return f"{told[:MOST_TOLD]}..." if len(told) > MOST_TOLD else told
 
 
 def _kind(found: Any) -> str:

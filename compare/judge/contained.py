@@ -32,6 +32,7 @@ GRACE = 2.0
 GENTLE = 0.5
 """Seconds between the request to end and the end."""
 PAUSE = 0.05
+SPOILT = "the step wrote into files of its process that it did not open"
 LONGEST = 1 << 16
 """Bytes that are read at once."""
 
@@ -117,8 +118,15 @@ class _Messages:
             if over or (end is not None and time.monotonic() > end):
                 return None
         line, _, self._text = self._text.partition(b"\n")
-        found: dict[str, Any] = json.loads(line)
-        return found
+        try:
+            found = json.loads(line)
+        except ValueError:
+            found = None
+        return (
+            found
+            if isinstance(found, dict)
+            else {"left": "the step wrote into files of its process that it did not open"}
+        )
 
 
 def _comes_to_an_end(pid: int, end: float | None) -> bool:

@@ -95,7 +95,9 @@ def _answer(line: _Line, request: dict[str, Any]) -> dict[str, Any]:
         found = check(**{**options, "step": step})
     except (OSError, ValueError, ImportError, ArithmeticError, RuntimeError) as error:
         return {"refused": sentence(error)}
-    except (SystemExit, KeyboardInterrupt, GeneratorExit) as error:
+    except BaseException as error:
+        if isinstance(error, Exception):
+            raise  # a fault of the judge's own, of which the traceback says most
         name = options["step"].rpartition(":")[2]
         return {"left": f"{name} raised {type(error).__name__}"}
     text = {"text": show.text, "json": show.json_text}[request["form"]](found)

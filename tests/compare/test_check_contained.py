@@ -16,7 +16,7 @@ from compare.__main__ import main
 
 ROOT = Path(__file__).parents[2]
 STEPS = """
-import ctypes, locale, os, signal, sys, time, warnings
+import contextlib, ctypes, locale, os, signal, sys, time, warnings
 from pathlib import Path
 
 HERE = Path(__file__).parent
@@ -45,6 +45,38 @@ def wants_too_much(f, y, h):
 def closes(f, y, h):
     os.closerange(3, 256)
     return euler(f, y, h)
+
+def writes_everywhere(f, y, h):
+    for number in range(3, 256):
+        with contextlib.suppress(OSError):
+            os.write(number, b"3\\n")
+    return euler(f, y, h)
+
+class Own(BaseException):
+    pass
+
+class Speechless(Exception):
+    def __str__(self):
+        raise RuntimeError
+
+class Endless:
+    def __len__(self):
+        return 10**18
+
+    def __getitem__(self, i):
+        return 0.0
+
+def raises_its_own(f, y, h):
+    raise Own("red")
+
+def is_speechless(f, y, h):
+    raise Speechless
+
+def talks_for_ever(f, y, h):
+    raise ValueError("\\x1b[31m" + "x" * 1000000)
+
+def returns_no_end(f, y, h):
+    return Endless()
 
 def keeps_every_exception(f, y, h):
     while True:
@@ -125,6 +157,8 @@ def steps(tmp_path):
         ("is_killed", "is_killed had its process ended by SIGKILL; "),
         ("interrupts", "interrupts raised KeyboardInterrupt; "),
         ("closes", "closes closed files of its process that it did not open; "),
+        ("writes_everywhere", "the step wrote into files of its process that it did not open; "),
+        ("raises_its_own", "raises_its_own raised Own; "),
         ("keeps_every_exception", "keeps_every_exception took more than 1 s and had to be ended; "),
         ("changes_its_alarm", "changes_its_alarm took more than 1 s and had to be ended; "),
     ],
@@ -135,6 +169,20 @@ def test_a_step_that_takes_its_process_along_is_one_sentence_with_the_claim(step
     out, err = capsys.readouterr()
     verdict = "a step that returns is accepted, and there is no verdict on the claim order 4 and symplectic.\n"
     assert (out, err) == ("", f"error: {says}{verdict}")
+
+
+@pytest.mark.parametrize(
+    ("step", "says"),
+    [
+        ("is_speechless", "is_speechless raised Speechless."),
+        ("talks_for_ever", f"talks_for_ever raised ValueError: \\x1b[31m{'x' * 388}..."),
+        ("returns_no_end", "returns_no_end returned a sequence that no memory holds; a state is accepted."),
+    ],
+)
+def test_what_a_step_raises_or_returns_is_told_in_one_short_line(step, says, steps, capsys):
+    assert main(["check", f"{steps}:{step}", "--order", "4"]) == 2
+    out, err = capsys.readouterr()
+    assert (out, err) == ("", f"error: {says}\n")
 
 
 def test_more_memory_than_there_is_is_one_sentence(steps, capsys):
