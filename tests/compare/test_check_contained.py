@@ -175,7 +175,7 @@ def test_a_step_that_takes_its_process_along_is_one_sentence_with_the_claim(step
     ("step", "says"),
     [
         ("is_speechless", "is_speechless raised Speechless."),
-        ("talks_for_ever", f"talks_for_ever raised ValueError: \\x1b[31m{'x' * 388}..."),
+        ("talks_for_ever", f"talks_for_ever raised ValueError: \\x1b[31m{'x' * 392}...."),
         ("returns_no_end", "returns_no_end returned a sequence that no memory holds; a state is accepted."),
     ],
 )
