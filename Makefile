@@ -7,6 +7,8 @@ DATASET := data/horologium-core.h5
 STAMP := $(VENV)/.installed
 BIN := $(VENV)/$(if $(filter Windows_NT,$(OS)),Scripts,bin)
 RUN := $(BIN)/python
+# A process a processor; the tests of one file share what they make.
+PARALLEL := -n auto --dist loadfile
 
 # What pyproject.toml allows, from its lower bounds to the newest of everything; what is old may use what is deprecated.
 SETS := lowest-direct highest
@@ -49,7 +51,7 @@ test: $(STAMP) $(DATASET)
 	$(RUN) -m ruff check .
 	$(RUN) -m ruff format --check .
 	$(RUN) -m mypy
-	$(RUN) -m pytest
+	$(RUN) -m pytest $(PARALLEL)
 
 bounds: $(STAMP) $(DATASET)
 	$(foreach set,$(SETS),$(call tested_with,$(set)))
@@ -59,7 +61,7 @@ define tested_with
 "$(PYTHON)" -m venv --clear .venv-$(1)
 .venv-$(1)/$(notdir $(BIN))/python -m pip install --quiet --constraint constraints.txt uv
 .venv-$(1)/$(notdir $(BIN))/python -m uv pip install --python .venv-$(1) --resolution $(1) --editable '.[test,xarray]'
-.venv-$(1)/$(notdir $(BIN))/python -m pytest $(FLAGS_$(1))
+.venv-$(1)/$(notdir $(BIN))/python -m pytest $(PARALLEL) $(FLAGS_$(1))
 .venv-$(1)/$(notdir $(BIN))/python -c 'import reference; print(reference.load().to_xarray()["pendulum/libration"])'
 
 endef
