@@ -25,6 +25,12 @@ def one_heyoka_thread() -> Iterator[None]:
 
 
 @pytest.fixture(autouse=True)
+def no_terminal(monkeypatch) -> None:
+    """Tables are as wide as where they are piped, also in a process of a pool that has been told a width."""
+    monkeypatch.delenv("COLUMNS", raising=False)
+
+
+@pytest.fixture(autouse=True)
 def working_precision_stays_as_it_was() -> Iterator[None]:
     """Precision is local: no test, and nothing that it calls, leaves another behind."""
 

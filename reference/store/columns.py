@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import math
 from contextlib import contextmanager
-from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import h5py
 import numpy as np
 
 from reference.names import LENGTH, short
+from reference.once import cached_property
 from reference.store.foreign import MOST_ATTRIBUTES, Said, attribute_bytes, said_of
 
 if TYPE_CHECKING:

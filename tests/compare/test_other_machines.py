@@ -98,9 +98,13 @@ def test_numbers_without_a_mark_read_as_on_another_machine(elsewhere: Scored) ->
 
 def test_marks_and_bounds_are_those_of_another_machine(elsewhere: Scored) -> None:
     for cell, other in zip(scored("float64").cells, elsewhere.cells, strict=True):
-        assert cell.rounding == other.rounding, (cell.method, cell.n, cell.case.label)
+        name = cell.method, cell.n, cell.case.label
+        if cell.max_error < 1:
+            assert cell.rounding == other.rounding, name
+        else:  # a march that is lost has its bound from a neighbour that was marched with it
+            assert not abs(cell.max_error - other.max_error) > cell.rounding + other.rounding, name
         clear = cell.max_error > 4 * cell.rounding or cell.max_error < cell.rounding
-        assert cell.floor == other.floor or not clear, (cell.method, cell.n, cell.case.label)
+        assert cell.floor == other.floor or not clear, name
 
 
 def test_fitted_orders_read_as_on_another_machine(elsewhere: Scored) -> None:
