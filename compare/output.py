@@ -110,12 +110,15 @@ def folder(path: str | os.PathLike[str]) -> Iterator[Folder]:
         OutputError: the path is a file, or cannot be written, or the disk is full, or what is not a regular file has
             the name of a result.
     """
-    try:
-        target = _target(path)
-        stage, inside = _make_stage(target)
-    except (OSError, ValueError) as error:
-        raise OutputError(_sentence(path, error)) from error
-    with stage:
+    with contextlib.ExitStack() as kept:
+        try:
+            target = _target(path)
+            with held():  # an interrupt finds the stage either not made or certain to be cleared away
+                stage, inside = _make_stage(target)
+                kept.enter_context(stage)
+                kept.callback(_clear, stage)
+        except (OSError, ValueError) as error:
+            raise OutputError(_sentence(path, error)) from error
         try:
             results = Folder(target, stage, inside)
             yield results
@@ -124,8 +127,6 @@ def folder(path: str | os.PathLike[str]) -> Iterator[Folder]:
             raise
         except OSError as error:
             raise OutputError(_sentence(path, error)) from error
-        finally:
-            _clear(stage)
 
 
 def _target(path: str | os.PathLike[str]) -> Path:
