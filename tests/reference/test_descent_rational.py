@@ -7,11 +7,12 @@ from fractions import Fraction
 
 import pytest
 
+from reference.exact import rational_root
 from reference.expression import Expression
 from reference.precision import mp
 from reference.problems.descent import RACE, Descent
 from reference.problems.descent.exactly import COSINES, exactly
-from reference.problems.descent.surds import PI, UNKNOWN, NotExactError, Surd, exact_root, surd
+from reference.problems.descent.surds import PI, UNKNOWN, NotExactError, Surd, surd
 
 ALONG_THE_PASSAGE = {
     ("line", 1): {"1/3": (None, None, Fraction(4, 3), None, None), "1": (None, 0, 0, 2, None)},
@@ -202,10 +203,10 @@ def test_equality_is_decided_among_unknowns():
 
 
 def test_a_root_of_a_rational_is_exact_or_none():
-    assert exact_root(Fraction(9, 4)) == Fraction(3, 2)
-    assert exact_root(Fraction(0)) == 0
-    assert exact_root(Fraction(2)) is None
-    assert exact_root(Fraction(-4)) is None
+    assert rational_root(Fraction(9, 4)) == Fraction(3, 2)
+    assert rational_root(Fraction(0)) == 0
+    assert rational_root(Fraction(2)) is None
+    assert rational_root(Fraction(-4)) is None
 
 
 BY_ANGLE = {

@@ -16,11 +16,12 @@ from typing import TYPE_CHECKING, Any
 
 from reference.balls import BALL
 from reference.dual import with_slope
+from reference.exact import rational_root
 from reference.once import cached_property
 from reference.precision import ctx
 from reference.problems.descent.curves import CycloidByArc, FormulaCurve
 from reference.problems.descent.exactly import SURD, exactly, known
-from reference.problems.descent.surds import UNKNOWN, Surd, exact_root, surd
+from reference.problems.descent.surds import UNKNOWN, Surd, surd
 
 if TYPE_CHECKING:
     from reference.problems.descent.slide import Slide
@@ -38,7 +39,7 @@ def _plain(value: Surd | None) -> Fraction | None:
 def _root(square: Surd | None) -> Fraction | None:
     """The square root of a square that is known, where it is rational."""
     value = _plain(square)
-    return None if value is None else exact_root(value)
+    return None if value is None else rational_root(value)
 
 
 @dataclass(frozen=True)

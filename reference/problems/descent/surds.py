@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-__all__ = ["PI", "QUARTER_TANGENT", "UNKNOWN", "NotExactError", "Surd", "exact_root", "rational_root", "surd"]
+__all__ = ["PI", "QUARTER_TANGENT", "UNKNOWN", "NotExactError", "Surd", "rational_root", "surd"]
 
 MAX_TERMS = 200
 MAX_BITS = 4000
@@ -142,14 +142,6 @@ def _product(a: Sum, b: Sum) -> Sum:
             key = i, k, j, d * e // common**2
             total[key] = total.get(key, Fraction(0)) + p * q * common
     return {key: value for key, value in total.items() if value}
-
-
-def exact_root(value: Fraction) -> Fraction | None:
-    """The square root of a rational, where it is rational."""
-    if value < 0:
-        return None
-    root = Fraction(isqrt(value.numerator), isqrt(value.denominator))
-    return root if root * root == value else None
 
 
 def rational_root(value: Fraction) -> Surd:
