@@ -13,6 +13,7 @@ from importlib import import_module
 from multiprocessing import connection, resource_tracker
 from typing import TYPE_CHECKING, Any, TypeVar
 
+from reference.interrupts import held
 from reference.names import unknown
 
 if TYPE_CHECKING:
@@ -79,11 +80,12 @@ class Pool(ProcessPoolExecutor):
 
     def submit(self, fn: Callable[..., Any], /, *args: Any, **kwargs: Any) -> Future[Any]:
         """Return the future of the task; a process may begin, which inherits what is blocked."""
-        before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
-        try:
-            return super().submit(fn, *args, **kwargs)
-        finally:
-            signal.pthread_sigmask(signal.SIG_SETMASK, before)
+        with held():  # any thread takes a signal that this one blocks: a process half begun would miss what it is to do
+            before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+            try:
+                return super().submit(fn, *args, **kwargs)
+            finally:
+                signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
 @contextmanager
@@ -95,8 +97,8 @@ def processes(count: int) -> Iterator[Executor]:
     """
     context = multiprocessing.get_context("spawn")
     resource_tracker.ensure_running()  # which lets in what is blocked
-    held, letting_go = context.Pipe(duplex=False)
-    with held, letting_go, Pool(count, context, initializer=_follow_parent, initargs=(held,)) as executor:
+    holding, letting_go = context.Pipe(duplex=False)
+    with holding, letting_go, Pool(count, context, initializer=_follow_parent, initargs=(holding,)) as executor:
         try:
             yield executor
         except BaseException:
@@ -105,7 +107,7 @@ def processes(count: int) -> Iterator[Executor]:
             raise
 
 
-def _follow_parent(held: Connection) -> None:
+def _follow_parent(holding: Connection) -> None:
     """Leave an interrupt to the parent, and end when it ends, however it does, or when it lets go."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGINT})
@@ -113,7 +115,7 @@ def _follow_parent(held: Connection) -> None:
 
     def watch() -> None:
         if parent is not None:
-            connection.wait([parent.sentinel, held])
+            connection.wait([parent.sentinel, holding])
             os._exit(1)
 
     threading.Thread(target=watch, daemon=True).start()
