@@ -8,11 +8,16 @@ import flint
 import heyoka
 import mpmath
 import pytest
+from hypothesis import HealthCheck, settings
 
 from reference.precision import ctx, mp
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
+
+# No test judges how long something takes: the machine may be busy with others.
+settings.register_profile("untimed", deadline=None, suppress_health_check=[HealthCheck.too_slow])
+settings.load_profile("untimed")
 
 
 @pytest.fixture(scope="session", autouse=True)

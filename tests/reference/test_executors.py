@@ -4,13 +4,15 @@ from __future__ import annotations
 
 import multiprocessing
 import os
+import signal
 import sys
 import threading
 import time
+from multiprocessing import util
 
 import pytest
 
-from reference.executors import WorkerError, opened, results
+from reference.executors import WorkerError, opened, processes, results
 
 
 def test_never_more_than_a_few_tasks_wait_for_a_worker():
@@ -97,3 +99,25 @@ def test_nobody_but_the_pool_cancels_what_its_processes_were_to_do(monkeypatch):
             assert len(futures) == 8
             assert not any(future.cancelled() for future in futures)
     assert all(future.done() for future in futures)
+
+
+def test_a_signal_that_another_thread_takes_finds_no_process_half_begun(monkeypatch, capfd):
+    """A child that never heard what it is to do ends with a traceback of its own."""
+    begin, begun = util.spawnv_passfds, []
+
+    def signalled(*args):
+        begun.append(begin(*args))
+        thread = threading.Thread(target=interrupt)
+        thread.start()
+        thread.join()
+        return begun[-1]
+
+    def interrupt():
+        signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGINT})
+        signal.pthread_kill(threading.get_ident(), signal.SIGINT)
+
+    monkeypatch.setattr(util, "spawnv_passfds", signalled)
+    with pytest.raises(KeyboardInterrupt), processes(2) as executor:
+        executor.submit(os.getpid)
+    assert begun
+    assert capfd.readouterr().err == ""
