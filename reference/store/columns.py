@@ -12,6 +12,7 @@ import numpy as np
 from reference.names import LENGTH, short
 from reference.once import cached_property
 from reference.store.foreign import MOST_ATTRIBUTES, Said, attribute_bytes, said_of
+from reference.store.heaps import damaged_heap
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
@@ -163,6 +164,11 @@ def foreign_columns(path: Path) -> Iterator[Mapping[str, ForeignColumn]]:
     except FAULTS as error:
         raise ValueError(f"'{path}' is no HDF5 file, or it is truncated.") from error
     with file:
+        heap = damaged_heap(path, file.id.get_create_plist().get_sizes()[1])
+        if heap is not None:
+            raise ValueError(
+                f"'{path}' has a damaged global heap at its byte {heap}; a file that h5repack has copied is accepted."
+            )
         found: dict[str, ForeignColumn] = {}
 
         def keep(path_inside: str | bytes, item: Any) -> None:

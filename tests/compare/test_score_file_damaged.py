@@ -4,14 +4,19 @@ from __future__ import annotations
 
 import io
 import json
+import os
 import random
 import struct
+import subprocess
+import sys
 import zipfile
+from pathlib import Path
 
 import h5py
 import numpy as np
 import pytest
 
+import compare
 from compare.__main__ import main
 from compare.submission.columns import Columns
 from compare.submission.files import Rows
@@ -44,6 +49,16 @@ def hdf5(arrays: dict, **options) -> bytes:
     return file.getvalue()
 
 
+def hdf5_with_heap(arrays: dict) -> bytes:
+    """Numbers as strings of variable length, and units, all in a global heap: the file's last part by far."""
+    file = io.BytesIO()
+    with h5py.File(file, "w") as opened:
+        for name, array in arrays.items():
+            opened[name] = [repr(x) for x in array.tolist()]
+            opened[name].attrs["units"] = {"t": "s", "theta": "rad", "omega": "rad s-1"}[name]
+    return file.getvalue()
+
+
 def text(separator: str = ",") -> bytes:
     rows = [separator.join(map(repr, row)) for row in TABLE.tolist()]
     return "\n".join([separator.join(COLUMNS), *rows, ""]).encode()
@@ -63,6 +78,7 @@ WHOLE = {
         hdf5({"run/t": T, "run/y": Y}),
         hdf5(COLUMNS, chunks=(8,), compression="gzip"),
         hdf5({"run": RECORDS}),
+        hdf5_with_heap(COLUMNS),
     ],
     ".csv": [
         text(),
@@ -135,6 +151,47 @@ def test_what_is_not_damaged_is_read(suffix, tmp_path, capsys):
         (tmp_path / f"a{suffix}").write_bytes(whole)
         assert main(["score", str(tmp_path / f"a{suffix}"), "--theta0", "1", "--format", "json"]) == 0
         assert json.loads(capsys.readouterr().out)["rows"] == 40
+
+
+def heap_mutant(source: random.Random, whole: bytes) -> bytes:
+    """Other bytes in the header of an object of a global heap."""
+    data = bytearray(whole)
+    begin = data.index(b"GCOL")
+    heads, at = [], begin + 16
+    while data[at]:
+        heads.append(at)
+        at += 16 + -(-data[at + 8] // 8) * 8
+    for _ in range(source.choice([1, 1, 2])):
+        place = source.choice([*heads, at]) + source.choice([0, 1, 8, 8, 8, 9, 14, 15])
+        data[place] = source.choice([0, 1, 7, 8, 15, 16, 0x7F, 0xF8, 0xFF])
+    return bytes(data)
+
+
+def test_heaps_over_which_hdf5_goes_round_for_ever_are_refused(tmp_path):
+    """In a process of its own, which the clock ends: HDF5 hears no signal meanwhile."""
+    source, whole = random.Random(21), hdf5_with_heap(COLUMNS)
+    for count in range(200):
+        (tmp_path / f"{count}.h5").write_bytes(heap_mutant(source, whole))
+    code = (
+        "import sys\n"
+        "from compare.__main__ import main\n"
+        "for count in range(200):\n"
+        "    print(main(['score', f'{count}.h5', '--theta0', '1', '--format', 'json']), file=sys.stderr)\n"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", code],
+        cwd=tmp_path,
+        env={**os.environ, "PYTHONPATH": str(Path(compare.__file__).parents[1])},
+        capture_output=True,
+        text=True,
+        timeout=300,
+        check=True,
+    )
+    said = done.stderr.splitlines()
+    refused = [line for line in said if line.startswith("error: ")]
+    assert len(said) == 200 + len(refused)
+    assert all(line.endswith(".") for line in refused)
+    assert sum("has a damaged global heap at its byte" in line for line in refused) > 50
 
 
 def header(shape: str, kind: str = "'<f8'", *, order: str = "False", version: bytes = b"\x01\x00") -> bytes:
