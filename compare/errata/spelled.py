@@ -7,6 +7,7 @@ What touches binds closer than what stands apart: ``g/2a`` is g/(2 a), ``cos 3ω
 
 from __future__ import annotations
 
+import operator
 import re
 from fractions import Fraction
 from math import factorial
@@ -54,7 +55,7 @@ class _Reader:
         """The whole text."""
         found = self._sum()
         if self._take("="):
-            found = found - self._sum()
+            found = operator.sub(*_of_one_kind(found, self._sum()))
         if self._at < len(self._tokens):
             raise ValueError(f"{self._next()!r} in {self._text!r} is not part of a formula.")
         return found
@@ -76,7 +77,7 @@ class _Reader:
     def _sum(self) -> Any:
         found = -self._product() if self._take("−", "-") else self._product()
         while sign := self._take("+", "−", "-"):
-            term = self._product()
+            found, term = _of_one_kind(found, self._product())
             found = found + term if sign == "+" else found - term
         return found
 
@@ -84,9 +85,9 @@ class _Reader:
         found = self._group()
         while True:
             if self._take("/"):
-                found = found / self._group()
+                found = operator.truediv(*_of_one_kind(found, self._group()))
             elif self._take("·") or self._begins_a_factor():
-                found = found * self._group()
+                found = operator.mul(*_of_one_kind(found, self._group()))
             else:
                 return found
 
@@ -94,7 +95,7 @@ class _Reader:
         """Factors that touch each other."""
         found = self._factor()
         while self._begins_a_factor() and not self._apart():
-            found = found * self._factor()
+            found = operator.mul(*_of_one_kind(found, self._factor()))
         return found
 
     def _begins_a_factor(self) -> bool:
@@ -139,3 +140,8 @@ class _Reader:
             return 1
         self._at += 1
         return int(raised.translate(_RAISED))
+
+
+def _of_one_kind(left: Any, right: Any) -> tuple[Any, Any]:
+    """The two sides of an operation; mpmath before 1.4 takes a fraction on its right side alone."""
+    return (mp.convert(left) if isinstance(left, Fraction) and isinstance(right, mp.mpf) else left), right

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import h5py
 import numpy as np
-from h5py import h5d, h5f, h5fd, h5g, h5p, h5s, h5t
+from h5py import h5d, h5p, h5s, h5t
 
 from reference.interrupts import held
 from reference.store.content import fingerprint
@@ -35,6 +35,8 @@ if TYPE_CHECKING:
     from reference.store.schema import Array
 
 __all__ = ["Writer", "writing"]
+
+VERSION_BOUND = ("v110", "v110")
 
 
 class Writer:
@@ -68,7 +70,7 @@ class Writer:
 
     def finish(self, version: str, profile: str, provenance: Mapping[str, str]) -> str:
         """Add the root's attributes, where it all came from, and the fingerprint, which is returned."""
-        _describe(_group(self._file, PROVENANCE), provenance)
+        _describe(self._file.create_group(PROVENANCE), provenance)
         found = fingerprint(self._file, signed_zeros=NEWEST.signed_zeros)
         described = root_attributes(NEWEST, version, profile, provenance.get("date", ""))
         _describe(self._file, {**described, "fingerprint": found})
@@ -88,37 +90,14 @@ def writing(path: Path, plan: Plan) -> Iterator[Writer]:
             sink.check()
             let_in()
 
-        with _new_file(sink) as file:
+        with h5py.File(sink, "w", libver=VERSION_BOUND, track_order=False) as file:
             yield Writer(file, plan, check)
         sink.check()
 
 
-def _new_file(sink: Sink) -> h5py.File:
-    """An empty file over the sink whose root, bears no time, as older h5py has no word for."""
-    access = h5p.create(h5p.FILE_ACCESS)
-    access.set_libver_bounds(h5f.LIBVER_V110, h5f.LIBVER_V110)
-    access.set_fclose_degree(h5f.CLOSE_STRONG)
-    access.set_fileobj_driver(h5fd.fileobj_driver, sink)
-    creation = h5p.create(h5p.FILE_CREATE)
-    creation.set_obj_track_times(False)
-    return h5py.File(h5f.create(repr(sink).encode(), h5f.ACC_TRUNC, fapl=access, fcpl=creation))
-
-
-def _group(file: h5py.File, path: str) -> h5py.Group:
-    """The group of this path, made with those above it where it is not there, without their times."""
-    creation = h5p.create(h5p.GROUP_CREATE)
-    creation.set_obj_track_times(False)
-    found: h5py.Group = file
-    for name in path.strip("/").split("/"):
-        if name not in found:
-            h5g.create(found.id, name.encode(), gcpl=creation)
-        found = found[name]
-    return found
-
-
 def _create_group(file: h5py.File, group: Group, limb: h5py.Dataset) -> None:
     layout = group.layout
-    target = _group(file, layout.path)
+    target = file.create_group(layout.path)
     _describe(target, group_attributes(layout, group.parameters))
     scales = {LIMB: limb}
     for array in arrays(layout, NEWEST):
