@@ -6,17 +6,17 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from compare.judge.checking import check
-    from compare.scoring import energy_drift, error_vs_n
-    from compare.submission.scored import score
+    from compare.claims.checking import check
+    from compare.files.scored import score
+    from compare.study import energy_drift, error_vs_n
 
 __all__ = ["check", "energy_drift", "error_vs_n", "score"]
 
 _HOMES = {
-    "check": "compare.judge.checking",
-    "energy_drift": "compare.scoring",
-    "error_vs_n": "compare.scoring",
-    "score": "compare.submission.scored",
+    "check": "compare.claims.checking",
+    "energy_drift": "compare.study",
+    "error_vs_n": "compare.study",
+    "score": "compare.files.scored",
 }
 
 

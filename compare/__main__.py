@@ -17,7 +17,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 from compare.arguments import Request, parse
-from reference.terminal import run
+from reference.command.terminal import run
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
@@ -62,7 +62,7 @@ def _command(words: Sequence[str] | None = None) -> int:
 
 def _shown(request: Request, run_study: Callable[..., Any], home: str) -> str:
     """Run a study, write what is to be written, and return the tables; ``home`` has the modules that show it."""
-    from compare import rendering
+    from compare.show import render as rendering
 
     tables = import_module(f"{home}.table").TABLES
     out = request.out
@@ -72,7 +72,7 @@ def _shown(request: Request, run_study: Callable[..., Any], home: str) -> str:
     with contextlib.ExitStack() as stack:
         results = None
         if out is not None:
-            from compare.output import folder
+            from compare.show.output import folder
 
             results = stack.enter_context(folder(out))
         with _progress(request.quiet) as progress:
@@ -90,7 +90,7 @@ def _shown(request: Request, run_study: Callable[..., Any], home: str) -> str:
 
 def _check(request: Request) -> int:
     """Check an integrator in a process of its own; what it prints goes to stderr: stdout has the answer alone."""
-    from compare.judge.contained import contained
+    from compare.claims.contained import contained
 
     found = contained(request.options, request.form)
     _print(found.text)
@@ -99,7 +99,7 @@ def _check(request: Request) -> int:
 
 def _errata(request: Request) -> int:
     """Print the errata, their checks run now; one that is not confirmed is a failure."""
-    from compare.errata import entries, show
+    from compare.sources.errata import entries, show
 
     found = show.records(entries.ENTRIES)
     _print(show.render(found, request.form, _width()))
@@ -108,7 +108,7 @@ def _errata(request: Request) -> int:
 
 def _score(request: Request) -> None:
     """Judge a file, and print what is found as it is found."""
-    from compare.submission.command import Submission, judged
+    from compare.files.score import Submission, judged
 
     with _progress(request.quiet) as progress:
         for piece in judged(Submission(**request.options), progress):
@@ -117,7 +117,7 @@ def _score(request: Request) -> None:
 
 def _study(request: Request, progress: Callable[[str], None] | None) -> Any:
     """The study of a family, on a process pool where that is worth it."""
-    from reference.executors import processes
+    from reference.command.executors import processes
 
     home, others = f"compare.studies.{request.command}", (os.cpu_count() or 1) - 1
     options = {**request.options, "traces": request.plots, "progress": progress}
@@ -146,8 +146,8 @@ def _solvers(request: Request) -> int:
 
 def _solver_study(request: Request, progress: Callable[[str], None] | None) -> SolverStudy:
     """The study, on a process pool where there is a core for it; a pool begins when the first task comes to it."""
-    from compare.studies import solvers
-    from reference.executors import processes
+    from compare.solvers import study as solvers
+    from reference.command.executors import processes
 
     others = (os.cpu_count() or 1) - 1
     with processes(others) if others else contextlib.nullcontext() as executor:
@@ -156,10 +156,10 @@ def _solver_study(request: Request, progress: Callable[[str], None] | None) -> S
 
 def _report(request: Request) -> str:
     """Write a report, or go on with one that was interrupted, and return its tables."""
-    from compare import rendering
     from compare.report import table
     from compare.report.run import plan, run
-    from reference.terminal import progress_bar
+    from compare.show import render as rendering
+    from reference.command.terminal import progress_bar
 
     wanted, out = plan(**request.options["plan"]), request.out or ""
     with progress_bar("measuring", quiet=request.quiet) as progress:
@@ -171,8 +171,8 @@ def _report(request: Request) -> str:
 
 def _published(request: Request) -> str:
     """The tables that are named, or all; where figures are named, they are written."""
-    from compare.published import show
-    from compare.published.entry import reproduce
+    from compare.sources.published import show
+    from compare.sources.published.entry import reproduce
 
     names, target = request.options["names"], request.options["figures"]
     found = reproduce(names) if names or target is None else []
@@ -182,8 +182,8 @@ def _published(request: Request) -> str:
 
 
 def _draw_published(request: Request, target: str) -> None:
-    from compare.figures.show import files
-    from compare.output import folder
+    from compare.show.output import folder
+    from compare.sources.figures.show import files
 
     with folder(target) as results:
         results.write(files(request.options["drawn"]))
@@ -192,16 +192,16 @@ def _draw_published(request: Request, target: str) -> None:
 
 
 def _listing(form: str) -> str:
-    from compare import listing
     from compare.methods import METHODS
+    from compare.show import listing
 
     return listing.render(METHODS, form)
 
 
 def _method(name: str, form: str) -> str:
-    from compare import tableau_text
-    from compare.description import describe
     from compare.methods import find
+    from compare.show import method_text as tableau_text
+    from compare.show.method import describe
 
     return tableau_text.render(describe(find(name)), form)
 

@@ -5,15 +5,15 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from compare.errata import options as errata
-from compare.judge import options as judge
-from compare.published import options as published
+from compare.claims import options as judge
+from compare.files import options as submission
 from compare.report import options as report
+from compare.show.study import FORMATS
 from compare.solvers import options as solvers
+from compare.sources.errata import options as errata
+from compare.sources.published import options as published
 from compare.studies import options as studies
-from compare.submission import options as submission
-from compare.table import FORMATS
-from reference.terminal import Parser, one_of
+from reference.command.terminal import Parser, one_of
 
 if TYPE_CHECKING:
     import argparse

@@ -8,13 +8,13 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     import os
 
-    from reference.certify import Certified
+    from reference.certified import Certified
+    from reference.dataset import Dataset
     from reference.problems.cycloid import Cycloid, CycloidalPendulum, CycloidArc, Tautochrone
     from reference.problems.descent import Descent
     from reference.problems.pendulum import LinearPendulum, Pendulum
     from reference.problems.polar import PolarBrachistochrone
     from reference.problems.tunnel import Tunnel
-    from reference.store import Dataset
 
 __all__ = [
     "Certified",
@@ -34,7 +34,7 @@ __all__ = [
 __version__ = "0.1.0"
 
 _HOMES = {
-    "Certified": "reference.certify",
+    "Certified": "reference.certified",
     "Cycloid": "reference.problems.cycloid",
     "CycloidArc": "reference.problems.cycloid",
     "CycloidalPendulum": "reference.problems.cycloid",
@@ -63,6 +63,6 @@ def load(path: str | os.PathLike[str] | None = None) -> Dataset:
         FileNotFoundError: there is no such file; the message says how to build it.
         DatasetError: a ValueError: the file is truncated, altered, of another schema, or no dataset.
     """
-    from reference.store import load as load_checked
+    from reference.dataset import load as load_checked
 
     return load_checked(path)

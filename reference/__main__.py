@@ -8,9 +8,9 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from reference.cite import FORMATS as CITE_FORMATS
+from reference.command.terminal import Parser, one_of, progress_bar, run
+from reference.dataset.cite import FORMATS as CITE_FORMATS
 from reference.names import short
-from reference.terminal import Parser, one_of, progress_bar, run
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -30,7 +30,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def _parser() -> Parser:
-    from reference.catalogue import PROFILES
+    from reference.problems.catalogue import PROFILES
 
     parser = Parser(prog="python -m reference", description="Reference values, proven correctly rounded.")
     commands = parser.add_subparsers(dest="command", metavar="COMMAND", required=True, parser_class=Parser)
@@ -75,7 +75,7 @@ def _add_workers(parser: argparse.ArgumentParser) -> None:
 
 
 def _add_at(commands: argparse._SubParsersAction[Parser]) -> None:
-    from reference.families import FAMILIES
+    from reference.problems.families import FAMILIES
 
     at = commands.add_parser("at", help="print proven values at one time, now")
     families = at.add_subparsers(dest="family", metavar="FAMILY", required=True, parser_class=Parser)
@@ -98,7 +98,7 @@ def _add_at(commands: argparse._SubParsersAction[Parser]) -> None:
 
 
 def _at(asked: argparse.Namespace) -> int:
-    from reference import at
+    from reference.command import at
 
     family = asked.known_as
     digits = at.digits_count(asked.digits)
@@ -117,9 +117,9 @@ def _at(asked: argparse.Namespace) -> int:
 
 
 def _build(asked: argparse.Namespace) -> int:
-    from reference.build import build
-    from reference.catalogue import plan
-    from reference.grids import plan_from
+    from reference.dataset.build import build
+    from reference.dataset.grids import plan_from
+    from reference.problems.catalogue import plan
 
     wanted = plan(asked.profile) if asked.config is None else plan_from(asked.config)
     out = _default_out(wanted.profile) if asked.out is None else asked.out
@@ -134,7 +134,7 @@ def _build(asked: argparse.Namespace) -> int:
 
 def _default_out(profile: str) -> Path:
     """The place of the shipped file for the core profile in a checkout, else the working folder."""
-    from reference.store import core_path
+    from reference.dataset import core_path
 
     checkout = Path(__file__).resolve().parents[1]
     if profile == "core" and (checkout / "pyproject.toml").exists() and (checkout / "data").is_dir():
@@ -143,7 +143,7 @@ def _default_out(profile: str) -> Path:
 
 
 def _verify(asked: argparse.Namespace) -> int:
-    from reference.verify import verify
+    from reference.dataset.verify import verify
 
     with progress_bar("proving again", quiet=asked.quiet) as progress:
         proofs = verify(asked.file, jobs=asked.jobs, executor=asked.executor, progress=progress)
@@ -157,8 +157,8 @@ def _verify(asked: argparse.Namespace) -> int:
 
 
 def _show(asked: argparse.Namespace) -> int:
-    from reference.show import show
-    from reference.store import load
+    from reference.dataset import load
+    from reference.dataset.show import show
 
     for line in show(load(asked.file), asked.path, asked.format):
         print(line)
@@ -166,16 +166,16 @@ def _show(asked: argparse.Namespace) -> int:
 
 
 def _cite(asked: argparse.Namespace) -> int:
-    from reference.cite import cite
-    from reference.store import load
+    from reference.dataset import load
+    from reference.dataset.cite import cite
 
     print(cite(load(asked.file), asked.format))
     return 0
 
 
 def _datasheet(asked: argparse.Namespace) -> int:
-    from reference.datasheet import datasheet
-    from reference.store import load
+    from reference.dataset import load
+    from reference.dataset.datasheet import datasheet
 
     print(datasheet(load(asked.file), asked.group), end="")
     return 0

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from reference.exact import spelled
+from reference.arithmetic.exact import spelled
 
 if TYPE_CHECKING:
     from fractions import Fraction

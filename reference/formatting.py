@@ -5,12 +5,12 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING
 
-from reference.binary64 import is_subnormal
+from reference.arithmetic.binary64 import is_subnormal
+from reference.arithmetic.underflow import require_gradual
 from reference.names import short
-from reference.underflow import require_gradual
 
 if TYPE_CHECKING:
-    from reference.certify import Certified
+    from reference.certified import Certified
 
 __all__ = ["formatted"]
 

@@ -14,18 +14,18 @@ from typing import TYPE_CHECKING, Any, ClassVar, Protocol
 
 import numpy as np
 
-from reference.arithmetic import MPMATH
-from reference.certify import Certified
-from reference.exact import exact_array, positive
-from reference.limbs import MAX_BITS, MAX_LIMBS, to_limbs
+from reference.arithmetic.exact import exact_array, positive
+from reference.arithmetic.limbs import MAX_BITS, MAX_LIMBS, to_limbs
+from reference.arithmetic.namespaces import MPMATH
+from reference.arithmetic.precision import mp
+from reference.certified import Certified
 from reference.names import unknown
-from reference.precision import mp
 from reference.routes import enclosure, quadrature
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
-    from reference.arithmetic import Arithmetic
+    from reference.arithmetic.namespaces import Arithmetic
     from reference.constants import Constant
     from reference.row_domains import Domain
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from reference.binary64 import hexadecimal
-from reference.exact import as_number, exact, spelled
+from reference.arithmetic.binary64 import hexadecimal
+from reference.arithmetic.exact import as_number, exact, spelled
 from reference.names import short
 
 if TYPE_CHECKING:

@@ -11,7 +11,7 @@ import mpmath
 import pytest
 from hypothesis import HealthCheck, settings
 
-from reference.precision import ctx, mp
+from reference.arithmetic.precision import ctx, mp
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

@@ -16,7 +16,7 @@ from pathlib import Path
 import pytest
 
 import reference
-from reference.store.schema import RELEASED
+from reference.dataset.schema import RELEASED
 
 ROOT = Path(__file__).parents[1]
 DOCUMENTS = sorted([*ROOT.glob("*.md"), *(ROOT / "docs").glob("*.md"), *(ROOT / "data").glob("*.md")])

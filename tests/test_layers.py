@@ -59,8 +59,8 @@ def test_nothing_imports_a_command_line(path):
 
 
 @pytest.mark.parametrize("path", SOURCES, ids=id_of)
-def test_only_the_store_knows_the_file_format(path):
-    if not path.is_relative_to(ROOT / "reference" / "store"):
+def test_only_the_dataset_knows_the_file_format(path):
+    if not path.is_relative_to(ROOT / "reference" / "dataset"):
         assert not {name for name in imports(path) if name.split(".")[0] == "h5py"}
 
 

@@ -26,7 +26,7 @@ from compare.methods.taylor import TAYLOR
 from reference.names import unknown
 
 if TYPE_CHECKING:
-    from compare.method import Method
+    from compare.methods.kinds.one_step import Method
 
 __all__ = ["DEFAULT", "METHODS", "find"]
 

@@ -4,8 +4,8 @@ The zero of the order conditions is near them: Yoshida's tables are printed to 1
 are wrong; Suzuki and Umeno's, Kahan and Li's and Sofroniou and Spaletta's are right to the last place.
 """
 
+from compare.methods.order.refined import proven_composition
 from compare.methods.symplectic import POSITION_VERLET, VERLET
-from compare.refined import proven_composition
 
 __all__ = [
     "COMPOSITIONS",

@@ -1,7 +1,7 @@
 """Methods that keep the energy."""
 
-from compare.conservative import AverageVectorField, DiscreteGradient, Projected
 from compare.methods.explicit import RK4
+from compare.methods.kinds.conservative import AverageVectorField, DiscreteGradient, Projected
 
 __all__ = ["AVF", "CONSERVATIVE", "GONZALEZ", "PROJECTED_RK4"]
 

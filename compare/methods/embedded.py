@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from compare.algebraic import Q, root
-from compare.method import Embedded, Tableau
+from compare.methods.kinds.one_step import Embedded, Tableau
+from compare.methods.order.algebraic import Q, root
 from compare.methods.printed import line, lines
 from compare.methods.tsitouras import TSITOURAS54
 
 if TYPE_CHECKING:
-    from compare.algebraic import Coefficient
+    from compare.methods.order.algebraic import Coefficient
 
 __all__ = [
     "BOGACKI_SHAMPINE32",

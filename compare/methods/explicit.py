@@ -1,7 +1,7 @@
 """Explicit one-step methods, each as printed in its source."""
 
-from compare.algebraic import Q
-from compare.method import Tableau
+from compare.methods.kinds.one_step import Tableau
+from compare.methods.order.algebraic import Q
 from compare.methods.printed import line, lines
 
 __all__ = [

@@ -1,9 +1,9 @@
 """Implicit Runge-Kutta methods, each as printed in its source."""
 
-from compare.algebraic import Q, root
-from compare.method import Tableau
+from compare.methods.kinds.one_step import Tableau
+from compare.methods.kinds.partitioned import Partitioned
+from compare.methods.order.algebraic import Q, root
 from compare.methods.printed import line, lines
-from compare.partitioned import Partitioned
 
 __all__ = [
     "GAUSS4",

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from compare.algebraic import Q
-from compare.coefficients import adams, backward_differences, stormer
 from compare.methods.explicit import RK4
-from compare.multistep import LinearMultistep, PredictorCorrector
-from compare.stormer import StormerCowell
+from compare.methods.kinds.multistep import LinearMultistep, PredictorCorrector
+from compare.methods.kinds.stormer import StormerCowell
+from compare.methods.order.algebraic import Q
+from compare.methods.order.coefficients import adams, backward_differences, stormer
 
 if TYPE_CHECKING:
-    from compare.contract import Method
+    from compare.methods.kinds.protocol import Method
 
 __all__ = ["BDF2", "MULTISTEP", "TWO_STEP_LEAPFROG"]
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from compare.refined import palindrome, proven_splitting
+from compare.methods.order.refined import palindrome, proven_splitting
 
 __all__ = [
     "BLANES_MOAN_SRKN6B",

@@ -1,6 +1,6 @@
 """Tables as they are printed: lines of fractions."""
 
-from compare.algebraic import Q
+from compare.methods.order.algebraic import Q
 
 __all__ = ["line", "lines"]
 

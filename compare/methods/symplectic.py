@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from compare.algebraic import Q, root, root_of
-from compare.method import Splitting, compose
-from compare.refined import palindrome, proven_splitting
+from compare.methods.kinds.one_step import Splitting, compose
+from compare.methods.order.algebraic import Q, root, root_of
+from compare.methods.order.refined import palindrome, proven_splitting
 
 if TYPE_CHECKING:
-    from compare.algebraic import Algebraic, Coefficient
+    from compare.methods.order.algebraic import Algebraic, Coefficient
 
 __all__ = [
     "BLANES_MOAN4",

@@ -1,6 +1,6 @@
 """Taylor's method in some orders: two that many methods have, and two for wide formats; heyoka takes 20 in doubles."""
 
-from compare.taylor import Taylor
+from compare.methods.kinds.taylor import Taylor
 
 __all__ = ["TAYLOR", "TAYLOR4", "TAYLOR8", "TAYLOR12", "TAYLOR20"]
 

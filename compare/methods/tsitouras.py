@@ -4,15 +4,15 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from compare.algebraic import Q
-from compare.method import Embedded, Tableau
-from compare.refined import refined
-from compare.trees import ElementaryWeights, density, trees
+from compare.methods.kinds.one_step import Embedded, Tableau
+from compare.methods.order.algebraic import Q
+from compare.methods.order.refined import refined
+from compare.methods.order.rooted_trees import ElementaryWeights, density, trees
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from compare.trees import Tree
+    from compare.methods.order.rooted_trees import Tree
 
 __all__ = ["TSITOURAS54"]
 

@@ -6,13 +6,13 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
-from compare.paths import CycloidCurve, PolarByPsi, PolarByZ
 from compare.studies.brachistochrone import depth_of
 from compare.studies.descent import last_tick
 from compare.studies.polar import PSI_END, depth_above
 from reference.names import unknown
 from reference.problems.cycloid import CycloidalPendulum, Tautochrone
 from reference.problems.descent import Descent
+from reference.problems.paths import CycloidCurve, PolarByPsi, PolarByZ
 from reference.problems.pendulum import Pendulum
 from reference.problems.polar import PolarBrachistochrone
 

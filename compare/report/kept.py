@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from compare.report.work import Task
-    from reference.partial import Partial
+    from reference.dataset.partial import Partial
 
 __all__ = ["Kept"]
 

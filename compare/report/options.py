@@ -5,9 +5,9 @@ from __future__ import annotations
 import os
 from typing import TYPE_CHECKING, Any
 
-from compare import reading
-from compare.rendering import FORMATS
-from reference.terminal import one_of
+from compare.show.render import FORMATS
+from reference.command import values as reading
+from reference.command.terminal import one_of
 
 if TYPE_CHECKING:
     import argparse

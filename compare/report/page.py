@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from compare import grid, machine
-from compare.rendering import header
 from compare.report import plot
 from compare.report.table import COLUMNS, case_sections, cases, closing
+from compare.show import machine
+from compare.show import text_table as grid
+from compare.show.render import header
 
 if TYPE_CHECKING:
     from compare.report.records import Report

@@ -7,28 +7,28 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from compare.output import folder
+from compare.measure.errors import SAMPLES
 from compare.report.families import FAMILIES, Amplitude, Family, family
 from compare.report.kept import Kept
 from compare.report.records import Report, WorkPoint
 from compare.report.work import Task, work
-from compare.scores import SAMPLES
-from compare.scoring import fits, named, some
+from compare.show.output import folder
 from compare.solvers.catalogue import SOLVERS, select
 from compare.solvers.solver import CALLS
-from compare.studies.solvers import DEFAULT_LIMIT, DEFAULT_RTOL, facts, questions, tolerances
+from compare.solvers.study import DEFAULT_LIMIT, DEFAULT_RTOL, facts, questions, tolerances
+from compare.study import fits, named, some
 from reference import __version__
-from reference.certify import ROUTES
-from reference.compiler import hy
-from reference.exact import positive
-from reference.executors import opened, results
-from reference.partial import partial
+from reference.arithmetic.compiler import hy
+from reference.arithmetic.exact import positive
+from reference.certified import ROUTES
+from reference.command.executors import opened, results
+from reference.dataset.partial import partial
 
 if TYPE_CHECKING:
     import os
     from collections.abc import Callable, Iterable, Iterator, Sequence
 
-    from compare.method import Method
+    from compare.methods.kinds.one_step import Method
     from compare.solvers.solver import Question, Solver
 
 __all__ = ["DEFAULT_N", "Plan", "plan", "run"]

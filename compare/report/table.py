@@ -4,16 +4,16 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from compare import grid
-from compare.grid import Column, Grid, Section
-from compare.rendering import Tables
 from compare.report.families import family
+from compare.show import text_table as grid
+from compare.show.render import Tables
+from compare.show.text_table import Column, Grid, Section
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
 
-    from compare.machine import Columns
     from compare.report.records import Report, WorkPoint
+    from compare.show.machine import Columns
 
 __all__ = ["COLUMNS", "TABLES", "TARGETS", "cases", "sections"]
 

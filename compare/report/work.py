@@ -8,19 +8,19 @@ from dataclasses import asdict, dataclass
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
-from compare.march import march_alone
+from compare.march.march import march_alone
+from compare.march.precision import precision
+from compare.march.trace import TraceError
+from compare.measure.errors import Course, score_errors
 from compare.methods import find
-from compare.precision import precision
 from compare.report.families import family
 from compare.report.records import WorkPoint
-from compare.scores import Course, score_errors
 from compare.solvers.catalogue import select
 from compare.solvers.score import score_solver
-from compare.studies.solvers import questions
-from compare.trace import TraceError
+from compare.solvers.study import questions
 
 if TYPE_CHECKING:
-    from compare.records import Cell
+    from compare.measure.records import Cell
     from compare.solvers.records import SolverCell
     from reference.problem import Problem
 

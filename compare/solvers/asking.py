@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
-from compare.sharing import shared
 from compare.solvers.catalogue import select
 from compare.solvers.events import exact_events
 from compare.solvers.score import score_events
+from reference.command.sharing import shared
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence

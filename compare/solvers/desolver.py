@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from compare.solvers.solver import Answer, Counted, Question, Solver, SolverError
-from reference.arithmetic import NUMPY
+from reference.arithmetic.namespaces import NUMPY
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence

@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from compare.solvers.solver import Answer, Question, Solver, SolverError
-from reference.arithmetic import Heyoka
-from reference.compiler import hy, not_kept
+from reference.arithmetic.compiler import hy, not_kept
+from reference.arithmetic.namespaces import Heyoka
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from compare import reading
-from compare.rendering import FORMATS
-from reference.terminal import one_of
+from compare.show.render import FORMATS
+from reference.command import values as reading
+from reference.command.terminal import one_of
 
 if TYPE_CHECKING:
     import argparse
@@ -40,7 +40,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 
 
 def options(known: argparse.Namespace) -> dict[str, Any]:
-    """What was given, as arguments of ``compare.studies.solvers.study``."""
+    """What was given, as arguments of ``compare.solvers.study.study``."""
     number = reading.as_written if known.exact else reading.number
     given: dict[str, Any] = {
         name: reading.several(name, getattr(known, name), read)

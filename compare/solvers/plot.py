@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from compare.ink import inks, saved, style
-from compare.plot import draw_curves, wide_figure
+from compare.show.plot import draw_curves, wide_figure
+from compare.show.plot_style import inks, saved, style
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator

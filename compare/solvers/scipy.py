@@ -8,7 +8,7 @@ from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from compare.solvers.solver import Answer, Counted, Question, Solver, SolverError
-from reference.arithmetic import NUMPY
+from reference.arithmetic.namespaces import NUMPY
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence

@@ -5,9 +5,9 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from compare import grid
-from compare.grid import Column, Grid, Section
-from compare.rendering import Tables
+from compare.show import text_table as grid
+from compare.show.render import Tables
+from compare.show.text_table import Column, Grid, Section
 from compare.solvers.solver import CALLS
 
 if TYPE_CHECKING:

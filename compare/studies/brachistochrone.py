@@ -10,16 +10,16 @@ import math
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
-from compare.paths import CycloidCurve
-from compare.scoring import some
 from compare.studies.common import SHORTER_N, distinct, forms_of, made, positive_end
+from compare.study import some
 from reference import Cycloid
-from reference.exact import as_number, exact
+from reference.arithmetic.exact import as_number, exact
+from reference.problems.paths import CycloidCurve
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from compare.records import Study
+    from compare.measure.records import Study
     from reference.problem import Problem
 
 __all__ = ["FORMS", "depth_of", "study"]
@@ -53,7 +53,7 @@ def study(
         form: "motion" and "curve", of which the radius is the cycloid's, rounded to a double.
         n: numbers of steps, each a positive integer.
         traces: whether to keep trajectories for plots.
-        options: of ``compare.scoring.score_all``.
+        options: of ``compare.study.score_all``.
 
     Raises:
         ValueError: an argument is outside its range, or a name unknown.

@@ -7,15 +7,15 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from compare.aspects import conserves
-from compare.course import Course
-from compare.march import INLINE_SINE, march
-from compare.records import Study, Trace
-from compare.scoring import fits, score_all
+from compare.march.march import INLINE_SINE, march
+from compare.measure.aspects import conserves
+from compare.measure.records import Study, Trace
+from compare.measure.truth import Course
+from compare.study import fits, score_all
 from reference import __version__
-from reference.certify import ROUTES
-from reference.compiler import hy
-from reference.exact import as_number, exact
+from reference.arithmetic.compiler import hy
+from reference.arithmetic.exact import as_number, exact
+from reference.certified import ROUTES
 from reference.names import unknown
 from reference.problem import Problem
 
@@ -23,8 +23,8 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
     from fractions import Fraction
 
-    from compare.precision import Precision
-    from compare.scoring import Scored
+    from compare.march.precision import Precision
+    from compare.study import Scored
 
 __all__ = ["SHORTER_N", "TRACE_N", "distinct", "forms_of", "made", "positive_end"]
 
@@ -152,7 +152,7 @@ def _engine(fmt: Precision) -> dict[str, Any]:
         "precision": fmt.name,
         "bits": fmt.bits,
         "compiler": f"heyoka {hy.__version__}",
-        "sine": f"heyoka's vector library; from {INLINE_SINE:.0e} evaluations in a march, inlined (compare.sine)",
+        "sine": f"heyoka's vector library; from {INLINE_SINE:.0e} evaluations in a march, inlined (compare.march.sine)",
         "contraction": "products and sums may be fused, so rounding differs from one processor to another; what it may "
         "change is not printed",
     }

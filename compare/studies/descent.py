@@ -5,15 +5,15 @@ from __future__ import annotations
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
-from compare.scoring import some
 from compare.studies.common import SHORTER_N, distinct, made, positive_end
+from compare.study import some
 from reference import Descent
-from reference.exact import as_number
+from reference.arithmetic.exact import as_number
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from compare.records import Study
+    from compare.measure.records import Study
 
 __all__ = ["last_tick", "study"]
 
@@ -44,7 +44,7 @@ def study(
         t_end: end of the march in s, at most the time of the descent; almost that time of each if None.
         n: numbers of steps, each a positive integer.
         traces: whether to keep trajectories for plots.
-        options: of ``compare.scoring.score_all``.
+        options: of ``compare.study.score_all``.
 
     Raises:
         ValueError: an argument is outside its range, a name unknown, or a curve has no start to march from.

@@ -8,10 +8,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from compare import reading
-from compare.rendering import FORMATS
-from compare.wanted import DEFAULT_SCORES, SCORES
-from reference.terminal import one_of
+from compare.measure.wanted import DEFAULT_SCORES, SCORES
+from compare.show.render import FORMATS
+from reference.command import values as reading
+from reference.command.terminal import one_of
 
 if TYPE_CHECKING:
     import argparse

@@ -4,15 +4,15 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from compare.scoring import DEFAULT_N, some
 from compare.studies.common import distinct, made, positive_end
+from compare.study import DEFAULT_N, some
 from reference import Pendulum
-from reference.exact import as_number
+from reference.arithmetic.exact import as_number
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from compare.records import Study
+    from compare.measure.records import Study
 
 __all__ = ["DEFAULT_N", "study"]
 
@@ -40,7 +40,7 @@ def study(
         omega0: angular velocity of the start in rad/s; released from rest if None.
         n: numbers of steps, each a positive integer.
         traces: whether to keep trajectories for plots.
-        options: of ``compare.scoring.score_all``.
+        options: of ``compare.study.score_all``.
 
     Raises:
         ValueError: an argument is outside its range, or a name unknown.

@@ -9,16 +9,16 @@ from __future__ import annotations
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
-from compare.paths import PolarByPsi, PolarByZ
-from compare.scoring import some
 from compare.studies.common import SHORTER_N, distinct, forms_of, made, positive_end
+from compare.study import some
 from reference import PolarBrachistochrone
-from reference.exact import as_number, exact
+from reference.arithmetic.exact import as_number, exact
+from reference.problems.paths import PolarByPsi, PolarByZ
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from compare.records import Study
+    from compare.measure.records import Study
     from reference.problem import Problem
 
 __all__ = ["FORMS", "PSI_END", "depth_above", "study"]
@@ -55,7 +55,7 @@ def study(
         form: "time", "z" and "psi".
         n: numbers of steps, each a positive integer.
         traces: whether to keep trajectories for plots.
-        options: of ``compare.scoring.score_all``.
+        options: of ``compare.study.score_all``.
 
     Raises:
         ValueError: an argument is outside its range, or a name unknown.

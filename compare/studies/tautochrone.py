@@ -5,16 +5,16 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Any
 
-from compare.scoring import some
 from compare.studies.common import SHORTER_N, distinct, forms_of, made, positive_end
+from compare.study import some
 from reference import Tautochrone
-from reference.exact import as_number
+from reference.arithmetic.exact import as_number
 from reference.problems.cycloid import CycloidalPendulum
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from compare.records import Study
+    from compare.measure.records import Study
     from reference.problem import Problem
 
 __all__ = ["FORMS", "study"]
@@ -46,7 +46,7 @@ def study(
         form: "angle" and "arc", which starts at 4 R sin(angle/2) rounded to a double.
         n: numbers of steps, each a positive integer.
         traces: whether to keep trajectories for plots.
-        options: of ``compare.scoring.score_all``.
+        options: of ``compare.study.score_all``.
 
     Raises:
         ValueError: an argument is outside its range, or a name unknown.

@@ -6,9 +6,9 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 from flint import arb
 
-from reference.arithmetic import BALL
-from reference.limbs import ziv
-from reference.precision import ctx
+from reference.arithmetic.limbs import ziv
+from reference.arithmetic.namespaces import BALL
+from reference.arithmetic.precision import ctx
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence

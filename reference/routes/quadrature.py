@@ -5,7 +5,7 @@ from __future__ import annotations
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
-from reference.precision import mp
+from reference.arithmetic.precision import mp
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from reference.arithmetic import MPMATH, Heyoka
+from reference.arithmetic.namespaces import MPMATH, Heyoka
 from reference.once import cached_property
 
 if TYPE_CHECKING:
@@ -33,7 +33,7 @@ class Flow:
     """
 
     def __init__(self, problem: Problem, bits: int) -> None:
-        from reference.compiler import hy
+        from reference.arithmetic.compiler import hy
 
         self._hy = hy
         self._problem = problem
@@ -103,7 +103,7 @@ def _compiled(
     **events: Any,
 ) -> Any:
     """The integrator of an equation, its state and its parameters still to be set."""
-    from reference.compiler import hy, not_kept
+    from reference.arithmetic.compiler import hy, not_kept
 
     variables = list(hy.make_vars(*state_names))
     symbols = {name: hy.par[i] for i, name in enumerate(parameter_names)}
@@ -142,7 +142,7 @@ def _tolerance(bits: int) -> Any:
 
 
 def _real(value: Fraction, bits: int) -> Any:
-    from reference.compiler import hy
+    from reference.arithmetic.compiler import hy
 
     return hy.real(value.numerator, bits) / hy.real(value.denominator, bits)
 

@@ -12,11 +12,11 @@ import sys
 import time
 from typing import TYPE_CHECKING
 
-from reference.blocks import compute
-from reference.catalogue import plan
+from reference.dataset.blocks import compute
+from reference.problems.catalogue import plan
 
 if TYPE_CHECKING:
-    from reference.plan import Group
+    from reference.dataset.plan import Group
 
 
 def seconds(group: Group, row: str) -> float:

@@ -16,10 +16,10 @@ from fractions import Fraction
 
 import numpy as np
 
-from compare.march import march
+from compare.march.march import march
+from compare.march.precision import precision
+from compare.measure.errors import Course
 from compare.methods import find
-from compare.precision import precision
-from compare.scores import Course
 from reference import Pendulum
 
 FLOAT64 = precision("float64")

@@ -20,9 +20,9 @@ from typing import Any
 
 import numpy as np
 
+from compare.march.precision import precision
+from compare.march.trace import compile_block
 from compare.methods import find
-from compare.precision import precision
-from compare.trace import compile_block
 from reference import Pendulum
 
 C_SOURCE = r"""

@@ -39,11 +39,11 @@ HERE = Path(__file__).parent
 
 def ours(out: Path) -> None:
     """The job by this package."""
-    from reference.executors import processes
+    from reference.command.executors import processes
 
     with processes(max((os.cpu_count() or 1) - 1, 1)) as executor:
-        executor.submit(import_module, "compare.scoring")  # as the command line does
-        from compare.scoring import score_all
+        executor.submit(import_module, "compare.study")  # as the command line does
+        from compare.study import score_all
         from reference import Pendulum
 
         scored = score_all([Pendulum(amplitude) for amplitude in AMPLITUDES], METHODS, COUNTS, executor=executor)

@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from compare.records import Case, Cell, Drift, FittedOrder, Study, Trace
+from compare.measure.records import Case, Cell, Drift, FittedOrder, Study, Trace
 
 METHODS = {
     "euler": (1, 1, 3.0),

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from compare.algebraic import enclose
 from compare.methods import find
+from compare.methods.order.algebraic import enclose
 
 W1 = 1 / (2 - 2 ** (1 / 3))
 W0 = 1 - 2 * W1

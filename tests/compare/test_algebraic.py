@@ -8,8 +8,8 @@ from flint import arb
 from hypothesis import given
 from hypothesis import strategies as st
 
-from compare.algebraic import Q, enclose, root, root_of
-from reference.precision import ctx
+from compare.methods.order.algebraic import Q, enclose, root, root_of
+from reference.arithmetic.precision import ctx
 
 CUBE_ROOT = root(2, 3)
 fractions = st.fractions(min_value=-50, max_value=50, max_denominator=97)

@@ -9,17 +9,17 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import pytest
 
-from compare.course import Course
-from compare.extras import GROWTH_SAMPLES, score
-from compare.layout import DOUBT, ROUNDING, decided, scientific, starred
-from compare.march import march
+from compare.march.march import march
+from compare.march.precision import precision
+from compare.measure.errors import score_courses
+from compare.measure.result import Run
+from compare.measure.rounding import roundings_of
+from compare.measure.scores import GROWTH_SAMPLES, score
+from compare.measure.truth import Course
 from compare.methods import find
-from compare.paths import CycloidCurve, PolarByZ
-from compare.precision import precision
-from compare.rounding import roundings_of
-from compare.run import Run
-from compare.scores import score_courses
+from compare.show.digits import DOUBT, ROUNDING, decided, scientific, starred
 from reference import Pendulum, PolarBrachistochrone, Tunnel
+from reference.problems.paths import CycloidCurve, PolarByZ
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

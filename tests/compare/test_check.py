@@ -11,10 +11,10 @@ import pytest
 import slips
 
 import compare
-from compare.judge.field import Field
-from compare.judge.forms import form_of
-from compare.judge.order import Cell, fitted, ladder
-from compare.judge.scene import Frame, Scene
+from compare.claims.field import Field
+from compare.claims.forms import form_of
+from compare.claims.frames import Frame, Scene
+from compare.claims.order import Cell, fitted, ladder
 from reference import Pendulum
 
 RIGHT = [
@@ -236,7 +236,7 @@ def test_the_swinging_frame_has_the_motion_that_its_truth_says():
     scene = Scene(Pendulum(1.0), Frame(0.5, 2.0))
     times = [1.0 - 2**-12, 1.0, 1.0 + 2**-12]
     before, here, after = (-scene.errors([t], np.zeros((1, 2)))[0] for t in times)
-    rates = scene.rates(compare.judge.scene.NUMPY, 1.0, here)
+    rates = scene.rates(compare.claims.frames.NUMPY, 1.0, here)
     assert ((after - before) * 2**11).tolist() == pytest.approx(list(rates), abs=1e-5)
     assert scene.errors([0], scene.start[None]).tolist() == [[0, 0]]
 

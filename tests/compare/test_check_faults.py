@@ -11,7 +11,7 @@ import slips
 
 import compare
 from compare.__main__ import main
-from compare.judge.order import Cell, fitted, ladder
+from compare.claims.order import Cell, fitted, ladder
 
 SMALL_DEFECTS = [
     (slips.shrunk_verlet, "not symplectic"),

@@ -12,8 +12,8 @@ import slips
 
 import compare
 from compare.__main__ import main
-from compare.judge.defects import Defect
-from compare.judge.findings import Claims
+from compare.claims.defects import Defect
+from compare.claims.findings import Claims
 
 ODDITIES = str(Path(__file__).parent / "oddities.py")
 

@@ -12,9 +12,10 @@ from pathlib import Path
 
 import pytest
 
-from compare import arguments, output
+from compare import arguments
 from compare.__main__ import main
 from compare.methods import METHODS
+from compare.show import output
 
 SMALL = ["pendulum", "--n", "128,256,512", "--methods", "euler,verlet"]
 ROOT = Path(__file__).parents[2]

@@ -11,16 +11,16 @@ import numpy as np
 import pytest
 
 import compare
-from compare.bound import plain_system
-from compare.compensated import Sum, compensate
-from compare.march import Lane, march, sample_steps
+from compare.march.equation import plain_system
+from compare.march.march import Lane, march, sample_steps
+from compare.march.precision import FORMATS, Precision, precision
+from compare.march.trace import compile_block, entry_rows, plain_block
 from compare.methods import METHODS, find
-from compare.precision import FORMATS, Precision, precision
-from compare.trace import compile_block, entry_rows, plain_block
+from compare.methods.kinds.compensated import Sum, compensate
 from reference import Pendulum
 
 if TYPE_CHECKING:
-    from compare.contract import Method
+    from compare.methods.kinds.protocol import Method
 
 FLOAT32, FLOAT64 = precision("float32"), precision("float64")
 by_name = pytest.mark.parametrize("method", METHODS, ids=lambda method: method.name)

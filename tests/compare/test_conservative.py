@@ -9,17 +9,17 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 import pytest
 
-from compare.bound import plain_system
-from compare.march import Lane, StartInvariant, march, sample_steps
+from compare.march.equation import plain_system
+from compare.march.march import Lane, StartInvariant, march, sample_steps
+from compare.march.precision import FORMATS, Precision, precision
+from compare.measure.errors import Course, fit_order, score_method
 from compare.methods import find
 from compare.methods.conservative import AVF, CONSERVATIVE, GONZALEZ, PROJECTED_RK4
-from compare.precision import FORMATS, Precision, precision
-from compare.scores import Course, fit_order, score_method
 from reference import Pendulum
 from reference.problem import Problem
 
 if TYPE_CHECKING:
-    from compare.contract import Method
+    from compare.methods.kinds.protocol import Method
 
 FLOAT64, FLOAT128 = precision("float64"), precision("float128")
 by_name = pytest.mark.parametrize("method", CONSERVATIVE, ids=lambda method: method.name)

@@ -11,10 +11,10 @@ import numpy as np
 import pytest
 
 from compare.__main__ import main
-from compare.paths import CycloidCurve
-from compare.published.entry import reproduce
-from compare.published.forms import CycloidByAngle, Form, forms
-from reference.arithmetic import NUMPY
+from compare.sources.published.entry import reproduce
+from compare.sources.published.forms import CycloidByAngle, Form, forms
+from reference.arithmetic.namespaces import NUMPY
+from reference.problems.paths import CycloidCurve
 
 SINGULAR, SMOOTH = ("dx/dy", "dphi/dz"), ("dx/dtheta", "dphi/dpsi")
 

@@ -8,13 +8,13 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from compare.course import Course
-from compare.extras import score
+from compare.march.precision import precision
+from compare.measure.scores import score
+from compare.measure.truth import Course
 from compare.methods import find
-from compare.paths import PolarByPsi
-from compare.precision import precision
 from reference import Descent, Pendulum, PolarBrachistochrone, Tautochrone
 from reference.problems.cycloid import CycloidalPendulum
+from reference.problems.paths import PolarByPsi
 
 if TYPE_CHECKING:
     from reference.problem import Problem

@@ -12,17 +12,17 @@ from pathlib import Path
 import pytest
 
 from compare.__main__ import main
-from compare.errata import show
-from compare.errata.cosines import coefficient, plus, sine, times
-from compare.errata.entries import ENTRIES, ERRATA
-from compare.errata.erratum import REPORT, THESIS
-from compare.errata.evidence import near, rounds_to
-from compare.errata.listings import CORRECTED, LISTING, undefined
-from compare.errata.noticed import NOTICED
-from compare.errata.report_series import BETA, BETA_PRINTED, PHI_B, PHI_B_PRINTED, PHI_C, PHI_C_PRINTED
-from compare.errata.sound import SOUND
-from compare.errata.spelled import spelled
-from reference.precision import mp
+from compare.sources.errata import show
+from compare.sources.errata.cosines import coefficient, plus, sine, times
+from compare.sources.errata.entries import ENTRIES, ERRATA
+from compare.sources.errata.erratum import REPORT, THESIS
+from compare.sources.errata.evidence import near, rounds_to
+from compare.sources.errata.listings import CORRECTED, LISTING, undefined
+from compare.sources.errata.noticed import NOTICED
+from compare.sources.errata.report_series import BETA, BETA_PRINTED, PHI_B, PHI_B_PRINTED, PHI_C, PHI_C_PRINTED
+from compare.sources.errata.sound import SOUND
+from compare.sources.errata.spelled import spelled
+from reference.arithmetic.precision import mp
 from reference.problems.descent import Descent
 from reference.problems.pendulum import Pendulum
 
@@ -265,7 +265,7 @@ def test_programs_read_the_same_records():
 
 def test_what_is_not_confirmed_is_said_and_is_a_failure(monkeypatch, capsys):
     none = dataclasses.replace(ERRATA[0], forms=(ERRATA[0].forms[1],) * 2)
-    monkeypatch.setattr("compare.errata.entries.ENTRIES", (none, *ENTRIES[1:]))
+    monkeypatch.setattr("compare.sources.errata.entries.ENTRIES", (none, *ENTRIES[1:]))
     assert main(["errata"]) == 1
     own = sum(one.source == REPORT for one in ERRATA)
     assert f"{own - 1} of {own} entries are confirmed" in capsys.readouterr().out

@@ -10,12 +10,12 @@ import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 
 from compare.__main__ import main
-from compare.figures import curve, descents, motion, pendulum, polar
-from compare.figures.catalogue import FIGURES
-from compare.figures.drawing import Drawing
-from compare.figures.motion import Motion
-from compare.figures.show import draw, files
-from compare.published.source import figures
+from compare.sources.figures import curve, descents, motion, pendulum, polar
+from compare.sources.figures.catalogue import FIGURES
+from compare.sources.figures.drawing import Drawing
+from compare.sources.figures.motion import Motion
+from compare.sources.figures.show import draw, files
+from compare.sources.published.source import figures
 
 SPEED_AT_THE_END = math.sqrt(2 * 9.81 * 2)
 

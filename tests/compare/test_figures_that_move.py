@@ -10,11 +10,11 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from compare.figures.motion import figure8, figure13
-from compare.figures.moving_image import FRAMES_PER_SECOND, HELD, PACE, SLOWER
-from compare.figures.page import STEPS_PER_SECOND
-from compare.figures.paletted import animated
-from compare.figures.show import files
+from compare.sources.figures.motion import figure8, figure13
+from compare.sources.figures.moving_image import FRAMES_PER_SECOND, HELD, PACE, SLOWER
+from compare.sources.figures.page import STEPS_PER_SECOND
+from compare.sources.figures.paletted import animated
+from compare.sources.figures.show import files
 from reference import Descent, Tautochrone
 
 NAMES = ("thesis-figure-8", "thesis-figure-13")

@@ -8,12 +8,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 import pytest
 
-from compare.laws import exponent_of
-from compare.scoring import score_all
+from compare.measure.laws import exponent_of
+from compare.study import score_all
 from reference import Pendulum
 
 if TYPE_CHECKING:
-    from compare.records import Growth
+    from compare.measure.records import Growth
 
 TIMES = np.linspace(0, 1000, 1025)[1:]
 

@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 from made_study import made_case, made_cell
 
-from compare.fit import fit_order
-from compare.layout import DOUBT, decided, is_rounding, scientific, starred
+from compare.measure.order_fit import fit_order
 from compare.methods import find
+from compare.show.digits import DOUBT, decided, is_rounding, scientific, starred
 
 
 @pytest.mark.parametrize(

@@ -10,16 +10,16 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import pytest
 
-from compare.bound import BoundSystem, plain_system
-from compare.march import Lane, StartInvariant, iterations_for, march, sample_steps
-from compare.method import Splitting
+from compare.march.equation import BoundSystem, plain_system
+from compare.march.march import Lane, StartInvariant, iterations_for, march, sample_steps
+from compare.march.precision import precision
+from compare.march.trace import compile_block, plain_block
 from compare.methods import METHODS, find
-from compare.precision import precision
-from compare.trace import compile_block, plain_block
+from compare.methods.kinds.one_step import Splitting
 from reference import Pendulum
 
 if TYPE_CHECKING:
-    from compare.contract import Method
+    from compare.methods.kinds.protocol import Method
     from reference.problem import Problem
 
 FLOAT64 = precision("float64")
@@ -143,7 +143,7 @@ def test_a_splitting_needs_a_separable_problem() -> None:
 def test_a_long_march_of_many_lanes_gives_what_its_lanes_give_alone(monkeypatch: pytest.MonkeyPatch) -> None:
     lanes = [lane(16384, Pendulum(theta0)) for theta0 in (1.0, 1.1, 2.0, 3.0)]
     plain = march(find("rk4"), lanes, FLOAT64)
-    monkeypatch.setattr("compare.shape.INLINE_SINE", 1)
+    monkeypatch.setattr("compare.march.block_size.INLINE_SINE", 1)
     inlined = march(find("rk4"), lanes, FLOAT64)
     assert any(not np.array_equal(one.states, other.states) for one, other in zip(plain, inlined, strict=True))
     for one, other in zip(plain, inlined, strict=True):
@@ -157,7 +157,7 @@ def test_a_block_is_compiled_once_for_all_lanes_that_come_back_to_it(monkeypatch
         compiled.append(words)
         return compile_block(*words, **options)
 
-    monkeypatch.setattr("compare.march.compile_block", compile_and_count)
+    monkeypatch.setattr("compare.march.march.compile_block", compile_and_count)
     method = replace(find("rk4"), name="rk4_once")
     for amplitude in (1.0, 2.0):
         march(method, [lane(200, Pendulum(amplitude))], FLOAT64)

@@ -8,14 +8,14 @@ from functools import cache
 
 import pytest
 
-from compare.algebraic import Q
-from compare.method import Embedded, Method, Splitting, Tableau
+from compare.march.precision import Precision, precision
+from compare.measure.errors import Course, fit_order, score_method
 from compare.methods import DEFAULT, METHODS, _plain, find
 from compare.methods.explicit import RK4
+from compare.methods.kinds.one_step import Embedded, Method, Splitting, Tableau
+from compare.methods.kinds.partitioned import Partitioned
+from compare.methods.order.algebraic import Q
 from compare.methods.symplectic import SUZUKI4, VERLET, YOSHIDA4
-from compare.partitioned import Partitioned
-from compare.precision import Precision, precision
-from compare.scores import Course, fit_order, score_method
 from reference import Pendulum
 
 tables = pytest.mark.parametrize(

@@ -9,21 +9,21 @@ from typing import TYPE_CHECKING
 import numpy as np
 import pytest
 
-from compare.algebraic import Q
-from compare.coefficients import adams, backward_differences, stormer
-from compare.march import Lane, march, sample_steps
+from compare.march.march import Lane, march, sample_steps
+from compare.march.precision import precision
+from compare.measure.errors import Course, fit_order, score_method
 from compare.methods import find
 from compare.methods.explicit import EULER, RK4
+from compare.methods.kinds.multistep import LinearMultistep, PredictorCorrector
+from compare.methods.kinds.stormer import StormerCowell
 from compare.methods.multistep import BDF2, MULTISTEP
-from compare.multistep import LinearMultistep, PredictorCorrector
-from compare.precision import precision
-from compare.scores import Course, fit_order, score_method
-from compare.stability import is_zero_stable
-from compare.stormer import StormerCowell
+from compare.methods.order.algebraic import Q
+from compare.methods.order.coefficients import adams, backward_differences, stormer
+from compare.methods.order.multistep import is_zero_stable
 from reference import Pendulum
 
 if TYPE_CHECKING:
-    from compare.contract import Method
+    from compare.methods.kinds.protocol import Method
 
 FLOAT64, FLOAT128 = precision("float64"), precision("float128")
 by_name = pytest.mark.parametrize("method", MULTISTEP, ids=lambda method: method.name)

@@ -8,16 +8,16 @@ from typing import TYPE_CHECKING
 import numpy as np
 import pytest
 
-from compare.bound import plain_system
-from compare.march import Lane, march, sample_steps
+from compare.march.equation import plain_system
+from compare.march.march import Lane, march, sample_steps
+from compare.march.precision import Precision, precision
 from compare.methods import METHODS, find
-from compare.newton import Elimination, iterations
-from compare.precision import Precision, precision
+from compare.methods.kinds.newton import Elimination, iterations
 from reference import Pendulum
 
 if TYPE_CHECKING:
-    from compare.bound import BoundSystem
-    from compare.contract import Method
+    from compare.march.equation import BoundSystem
+    from compare.methods.kinds.protocol import Method
 
 FLOAT64 = precision("float64")
 RATE = float(np.sqrt(9.81))

@@ -6,18 +6,18 @@ from dataclasses import replace
 
 import pytest
 
-from compare.algebraic import Q
-from compare.method import Method, Splitting, Tableau, compose
 from compare.methods import METHODS, find
 from compare.methods.compositions import KAHAN_LI6
 from compare.methods.explicit import RK4
+from compare.methods.kinds.one_step import Method, Splitting, Tableau, compose
+from compare.methods.kinds.partitioned import Partitioned
 from compare.methods.nystrom import NYSTROM
+from compare.methods.order.algebraic import Q
+from compare.methods.order.certified_roots import Linear
+from compare.methods.order.conditions import order_of_splitting, order_of_tableau, proven_order
+from compare.methods.order.refined import jump
+from compare.methods.order.rooted_trees import trees
 from compare.methods.symplectic import VERLET, triple_jump
-from compare.order import order_of_splitting, order_of_tableau, proven_order
-from compare.partitioned import Partitioned
-from compare.refined import jump
-from compare.trees import trees
-from compare.zeros import Linear
 
 TABLES = [method for method in METHODS if isinstance(method, (Tableau, Splitting, Partitioned))]
 

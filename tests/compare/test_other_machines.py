@@ -12,8 +12,10 @@ from typing import Any
 
 import pytest
 
-from compare import layout, march, table, trace
-from compare.scoring import Scored, score_all
+from compare.march import march, trace
+from compare.show import digits as layout
+from compare.show import study as table
+from compare.study import Scored, score_all
 from reference import Pendulum, PolarBrachistochrone, Tautochrone
 
 METHODS = ("euler", "heun", "verlet", "ruth3", "rk4", "yoshida4", "gauss4", "ab4", "yoshida6", "kahan_li8")
@@ -45,7 +47,7 @@ def elsewhere() -> Any:
 
     with pytest.MonkeyPatch.context() as patch:
         march._compiled.cache_clear()
-        patch.setattr("compare.march.compile_block", otherwise)
+        patch.setattr("compare.march.march.compile_block", otherwise)
         found = score_all(PROBLEMS, METHODS, COUNTS)
     march._compiled.cache_clear()
     return found

@@ -10,13 +10,13 @@ import numpy as np
 import pytest
 
 from compare import error_vs_n
-from compare.aspects import conserves
+from compare.measure.aspects import conserves
 from compare.methods import find
 from compare.methods.multistep import MULTISTEP
-from compare.paths import CycloidCurve, PolarByPsi, PolarByZ
 from reference import Cycloid, PolarBrachistochrone
-from reference.arithmetic import MPMATH, NUMPY
-from reference.precision import mp
+from reference.arithmetic.namespaces import MPMATH, NUMPY
+from reference.arithmetic.precision import mp
+from reference.problems.paths import CycloidCurve, PolarByPsi, PolarByZ
 
 if TYPE_CHECKING:
     from reference.problem import Problem

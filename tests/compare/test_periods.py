@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from compare.course import Course
-from compare.extras import score
+from compare.march.precision import precision
+from compare.measure.scores import score
+from compare.measure.truth import Course
 from compare.methods import find
-from compare.precision import precision
 from reference import Cycloid, Pendulum, PolarBrachistochrone, Tautochrone, Tunnel
 from reference.problems.cycloid import CycloidalPendulum
 

@@ -9,11 +9,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 import pytest
 
-from compare.course import Course
-from compare.extras import score
-from compare.march import march
+from compare.march.march import march
+from compare.march.precision import precision
+from compare.measure.scores import score
+from compare.measure.truth import Course
 from compare.methods import find
-from compare.precision import precision
 from reference import Descent, Pendulum, PolarBrachistochrone, Tautochrone, Tunnel
 from reference.problems.cycloid import CycloidalPendulum
 

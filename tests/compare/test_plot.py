@@ -15,8 +15,8 @@ import pytest
 from made_study import METHODS, made_case, made_study
 from matplotlib.text import Text
 
-from compare import plot
-from compare.ink import inks, saved, spread, style
+from compare.show import plot
+from compare.show.plot_style import inks, saved, spread, style
 
 CASE = made_case(1.0)
 FEW = ("euler", "verlet", "suzuki4")

@@ -7,13 +7,13 @@ import oddities
 import pytest
 import slips
 
-from compare.judge.candidate import Candidate
-from compare.judge.expansion import Expansion, Expansions, NoSeriesError
-from compare.judge.forms import form_of
-from compare.judge.powers import Powers, lower, powers
-from compare.judge.scene import Frame, Scene
+from compare.claims.candidate import Candidate
+from compare.claims.expansion import Expansion, Expansions, NoSeriesError
+from compare.claims.forms import form_of
+from compare.claims.frames import Frame, Scene
+from compare.claims.powers import Powers, lower, powers
 from reference import Pendulum
-from reference.precision import mp
+from reference.arithmetic.precision import mp
 
 STILL = Scene(Pendulum(1.0))
 SWINGING = Scene(Pendulum(1.0), Frame(0.5, 2.0))

@@ -10,13 +10,13 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from compare.algebraic import root
-from compare.course import Course
-from compare.march import march
+from compare.march.march import march
+from compare.march.precision import FORMATS, Precision, _long, precision
+from compare.measure.truth import Course
 from compare.methods import find
-from compare.precision import FORMATS, Precision, _long, precision
+from compare.methods.order.algebraic import root
 from reference import Pendulum
-from reference.compiler import hy
+from reference.arithmetic.compiler import hy
 
 every_format = pytest.mark.parametrize("fmt", [*FORMATS, precision("mp:200")], ids=lambda fmt: fmt.name)
 rationals = st.fractions(min_value=-1000, max_value=1000, max_denominator=10**9)

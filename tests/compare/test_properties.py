@@ -7,11 +7,11 @@ from math import sqrt
 import pytest
 from flint import arb
 
-from compare.algebraic import Q, enclose
-from compare.method import Tableau
 from compare.methods import METHODS, find
-from compare.properties import Stability, used_stages
-from reference.precision import ctx
+from compare.methods.kinds.one_step import Tableau
+from compare.methods.kinds.properties import Stability, used_stages
+from compare.methods.order.algebraic import Q, enclose
+from reference.arithmetic.precision import ctx
 
 IMPLICIT = {
     # name: symplectic, symmetric, A-stable, L-stable

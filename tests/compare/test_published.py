@@ -15,18 +15,18 @@ import numpy as np
 import pytest
 
 from compare.__main__ import main
-from compare.lane import Lane
-from compare.march import march
+from compare.march.lanes import Lane
+from compare.march.march import march
+from compare.march.precision import precision
 from compare.methods import find
-from compare.paths import CycloidCurve
-from compare.precision import precision
-from compare.published.dense import dense
-from compare.published.entry import reproduce
-from compare.published.options import options
-from compare.published.source import figure, figures, sources, tables
+from compare.sources.published.dense import dense
+from compare.sources.published.entry import reproduce
+from compare.sources.published.options import options
+from compare.sources.published.source import figure, figures, sources, tables
 from reference import Pendulum
-from reference.arithmetic import NUMPY
-from reference.precision import mp
+from reference.arithmetic.namespaces import NUMPY
+from reference.arithmetic.precision import mp
+from reference.problems.paths import CycloidCurve
 from reference.problems.pendulum.equations import energy
 
 FLOAT64 = precision("float64")

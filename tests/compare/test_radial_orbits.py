@@ -11,13 +11,13 @@ import pytest
 from flint import arb
 
 import compare
-from compare.submission.orbit import orbits, remark
-from compare.submission.place import apart
-from compare.submission.radial import RadialOscillation
 from reference import PolarBrachistochrone, Tunnel
-from reference.arithmetic import BALL
-from reference.precision import ctx, mp
+from reference.arithmetic.namespaces import BALL
+from reference.arithmetic.precision import ctx, mp
+from reference.orbits import apart
+from reference.problems.orbits import orbits, remark
 from reference.problems.polar.equations import POINT_MASS
+from reference.problems.polar.radial import RadialOscillation
 from reference.problems.polar.taylor import System, equations_of
 from reference.routes import enclosure
 from reference.routes.taylor import Flow

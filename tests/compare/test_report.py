@@ -13,11 +13,11 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
-from compare import rendering
 from compare.__main__ import main
-from compare.march import march, march_alone
+from compare.march.march import march, march_alone
+from compare.march.precision import precision
+from compare.measure.errors import Course
 from compare.methods import METHODS, find
-from compare.precision import precision
 from compare.report import run as running
 from compare.report.families import family
 from compare.report.kept import Kept
@@ -26,9 +26,9 @@ from compare.report.records import Report, WorkPoint
 from compare.report.run import plan, run
 from compare.report.table import TABLES, sections
 from compare.report.work import Task, work
-from compare.scores import Course
+from compare.show import render as rendering
 from reference import Descent, Pendulum
-from reference.partial import BusyError, PlaceError, partial
+from reference.dataset.partial import BusyError, PlaceError, partial
 
 SMALL = {
     "problems": ["pendulum"],

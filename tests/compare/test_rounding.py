@@ -10,12 +10,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import pytest
 
-from compare.compensated import compensate
-from compare.course import Course
-from compare.march import march
+from compare.march.march import march
+from compare.march.precision import precision
+from compare.measure.rounding import Rounding, roundings_of
+from compare.measure.truth import Course
 from compare.methods import find
-from compare.precision import precision
-from compare.rounding import Rounding, roundings_of
+from compare.methods.kinds.compensated import compensate
 from reference import Cycloid, Pendulum, PolarBrachistochrone, Tautochrone, Tunnel
 
 if TYPE_CHECKING:
@@ -139,7 +139,7 @@ def test_the_bound_grows_where_a_neighbour_tells_of_more(monkeypatch: pytest.Mon
                 one.states[:, 0] += 100 * before[0].place
         return found
 
-    monkeypatch.setattr("compare.rounding.march", noisy)
+    monkeypatch.setattr("compare.measure.rounding.march", noisy)
     wider = told(method, courses)
     assert {after.place / one.place for one, after in zip(before, wider, strict=True)} <= {16.0, 64.0, 256.0}
 
@@ -152,5 +152,5 @@ def counted(monkeypatch: pytest.MonkeyPatch) -> list[int]:
         counts.extend(lane.n for lane in lanes)
         return march(method, lanes, fmt, among)
 
-    monkeypatch.setattr("compare.rounding.march", march_and_count)
+    monkeypatch.setattr("compare.measure.rounding.march", march_and_count)
     return counts

@@ -15,9 +15,9 @@ import numpy as np
 import pytest
 
 from compare.__main__ import main
-from compare.submission import lines as numbered_lines
-from compare.submission.columns import Columns
-from compare.submission.files import Rows
+from compare.files import lines as numbered_lines
+from compare.files.columns import Columns
+from compare.files.files import Rows
 from reference import Pendulum
 from reference.problems.cycloid import Cycloid, Tautochrone
 from reference.problems.polar import PolarBrachistochrone

@@ -18,8 +18,8 @@ import pytest
 
 import compare
 from compare.__main__ import main
-from compare.submission.columns import Columns
-from compare.submission.files import Rows
+from compare.files.columns import Columns
+from compare.files.files import Rows
 from reference import Pendulum
 
 T = np.arange(0, 40) / 10

@@ -11,10 +11,10 @@ import numpy as np
 import pytest
 
 import compare
-from compare.submission.record import Running
-from compare.submission.show import marked
+from compare.files.record import Running
+from compare.files.show import marked
 from reference import Pendulum
-from reference.precision import mp
+from reference.arithmetic.precision import mp
 from reference.problem import SeparableProblem
 from reference.problems.cycloid import Cycloid, CycloidalPendulum, Tautochrone
 from reference.problems.descent import Descent

@@ -14,11 +14,11 @@ from test_score_file_sift import BACK, NARROW, SWING, TURNING, WIDE, chunked, sp
 
 import compare
 from compare.__main__ import main
-from compare.submission.crew import Crew
-from compare.submission.judge import Judge
-from compare.submission.record import Point, Running
-from compare.submission.scales import Scales
-from compare.submission.sift import Sift
+from compare.files.crew import Crew
+from compare.files.fast_path import Sift
+from compare.files.judge import Judge
+from compare.files.record import Point, Running
+from compare.files.scales import Scales
 from reference import Pendulum
 from reference.problems.polar import PolarBrachistochrone
 

@@ -9,16 +9,17 @@ import numpy as np
 import pytest
 
 from compare.__main__ import main
-from compare.submission import bounds, sift
-from compare.submission.arrays import Sliced, chunks
-from compare.submission.chunk import Chunk, Doubles, Row
-from compare.submission.columns import Columns
-from compare.submission.crew import Crew
-from compare.submission.exact_rows import Times
-from compare.submission.judge import Judge
-from compare.submission.show import json_text
-from compare.submission.sift import BoundError, Sift
-from compare.submission.written import of_decimal
+from compare.files import bounds
+from compare.files import fast_path as sift
+from compare.files.arrays import Sliced, chunks
+from compare.files.chunk import Chunk, Doubles, Row
+from compare.files.columns import Columns
+from compare.files.crew import Crew
+from compare.files.exact_rows import Times
+from compare.files.fast_path import BoundError, Sift
+from compare.files.judge import Judge
+from compare.files.show import json_text
+from compare.files.written import of_decimal
 from reference import Pendulum
 
 SWING, TURNING = Pendulum(1.0), Pendulum(3, omega0=7)
@@ -204,7 +205,7 @@ def test_the_bounds_are_near_what_they_bound():
 
 
 def test_a_bound_that_is_wrong_is_an_error_and_not_a_result(monkeypatch):
-    monkeypatch.setattr("compare.submission.bounds.SLACK", -1e-3)
+    monkeypatch.setattr("compare.files.bounds.SLACK", -1e-3)
     with pytest.raises(BoundError, match="was found outside its bounds"):
         judged(SWING, chunked(verlet(2000, 1 / 64)), sifted=True)
 
@@ -244,11 +245,11 @@ def test_other_processes_find_the_same_in_the_same_order(form, tmp_path, capsys,
     rows = [",".join(map(repr, row)) for row in spoiled(SWING, 0.0).tolist()]
     (tmp_path / "a.csv").write_text("\n".join(["t,theta,omega", *rows]))
     np.save(tmp_path / "a.npy", spoiled(SWING, 0.0))
-    monkeypatch.setattr("compare.submission.command.CHUNK", 100)
+    monkeypatch.setattr("compare.files.score.CHUNK", 100)
     for name in ("a.csv", "a.npy"):
         outputs = []
         for cores in (1, 3):
-            monkeypatch.setattr("compare.submission.crew.os.cpu_count", lambda cores=cores: cores)
+            monkeypatch.setattr("compare.files.crew.os.cpu_count", lambda cores=cores: cores)
             assert main(["score", str(tmp_path / name), "--theta0", "1", "--format", form]) == 0
             outputs.append(capsys.readouterr().out)
         assert outputs[0] == outputs[1]

@@ -12,8 +12,8 @@ import pytest
 import compare
 from compare.__main__ import main
 from reference import Pendulum
+from reference.arithmetic.precision import mp
 from reference.names import short
-from reference.precision import mp
 from reference.problems.polar import PolarBrachistochrone
 
 P = Pendulum(1.0)
@@ -76,7 +76,7 @@ def test_an_error_beyond_doubles_is_one_sentence_and_no_number(line, form, tmp_p
 
 
 def test_times_beyond_doubles_are_times(tmp_path, capsys, monkeypatch):
-    monkeypatch.setattr("compare.submission.command.CHUNK", 2)
+    monkeypatch.setattr("compare.files.score.CHUNK", 2)
     (tmp_path / "a.csv").write_text(f"{HEADER}0.0,1,0\n1e400,1,1\n2e400,0.5,1\n")
     assert main(["score", str(tmp_path / "a.csv"), "--theta0", "1"]) == 0
     assert "3 rows, worst" in capsys.readouterr().out

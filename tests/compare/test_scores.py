@@ -10,18 +10,18 @@ import numpy as np
 import pytest
 from made_study import made_case, made_cell
 
-from compare.march import march
+from compare.march.march import march
+from compare.march.precision import precision
+from compare.measure.errors import Course, fit_order, score_errors, score_method, slope_with_interval, student_95
 from compare.methods import find
-from compare.precision import precision
-from compare.scores import Course, fit_order, score_errors, score_method, slope_with_interval, student_95
 from reference import Pendulum
-from reference.precision import mp
+from reference.arithmetic.precision import mp
 from reference.problems.cycloid import CycloidalPendulum
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from compare.records import Cell
+    from compare.measure.records import Cell
 
 FLOAT64 = precision("float64")
 RK4 = find("rk4")

@@ -7,12 +7,12 @@ from typing import Any
 import pytest
 
 import compare
-from compare import scoring
+from compare import study as scoring
 from compare.methods import DEFAULT, METHODS, find
-from compare.paths import PolarByPsi
 from compare.studies.pendulum import study
 from reference import Pendulum
-from reference.executors import processes
+from reference.command.executors import processes
+from reference.problems.paths import PolarByPsi
 
 
 def test_error_vs_n_and_energy_drift_give_what_the_study_gives() -> None:

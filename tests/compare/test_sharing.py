@@ -9,8 +9,8 @@ from typing import Any
 
 import pytest
 
-from compare.sharing import shared
-from reference.executors import Inline, processes
+from reference.command.executors import Inline, processes
+from reference.command.sharing import shared
 
 
 def square(number: int) -> int:

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 from flint import arb
 
-from compare.sine import sine
-from reference.precision import ctx
+from compare.march.sine import sine
+from reference.arithmetic.precision import ctx
 
 X = hy.expression("x")
 COMPILED = hy.cfunc([sine(X)], vars=[X], batch_size=8)

@@ -14,15 +14,15 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
+from compare.solvers import study as study_module
 from compare.solvers.catalogue import SOLVERS, select
 from compare.solvers.events import exact_events
 from compare.solvers.foreign import heard
 from compare.solvers.score import score_events, score_solver
 from compare.solvers.solver import Answer, Solver
-from compare.studies import solvers as study_module
-from compare.studies.solvers import questions, study
+from compare.solvers.study import questions, study
 from reference import Pendulum
-from reference.executors import processes
+from reference.command.executors import processes
 
 PENDULUM = Pendulum(1.0)
 LIMIT = 20_000

@@ -15,9 +15,9 @@ from compare.solvers.catalogue import select
 from compare.solvers.events import exact_events
 from compare.solvers.score import score_events, score_solver
 from compare.solvers.source import SOURCE, Term
-from compare.studies.solvers import questions
+from compare.solvers.study import questions
 from reference import Pendulum
-from reference.arithmetic import NUMPY
+from reference.arithmetic.namespaces import NUMPY
 
 PENDULUM = Pendulum(1.0)
 FAKES = Path(__file__).parent / "fakes"

@@ -10,13 +10,13 @@ from dataclasses import replace
 
 import pytest
 
-from compare import rendering
 from compare.__main__ import main
-from compare.grid import text_width
+from compare.show import render as rendering
+from compare.show.text_table import text_width
 from compare.solvers import plot
 from compare.solvers.records import EventCell, SolverCell, SolverEntry, SolverStudy
+from compare.solvers.study import QUICK_LIMIT, QUICK_RTOL
 from compare.solvers.table import TABLES, sections
-from compare.studies.solvers import QUICK_LIMIT, QUICK_RTOL
 
 RTOL = tuple(float(f"1e-{k}") for k in range(3, 14))
 

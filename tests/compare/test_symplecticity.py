@@ -7,12 +7,12 @@ from typing import Any
 import pytest
 from flint import arb
 
-from compare.algebraic import enclose
-from compare.method import Method, Splitting
 from compare.methods import METHODS, find
-from reference.arithmetic import BALL
-from reference.dual import Dual, DualArithmetic
-from reference.precision import ctx
+from compare.methods.kinds.one_step import Method, Splitting
+from compare.methods.order.algebraic import enclose
+from reference.arithmetic.dual import Dual, DualArithmetic
+from reference.arithmetic.namespaces import BALL
+from reference.arithmetic.precision import ctx
 
 BITS = 300
 DUALS = DualArithmetic(BALL, 2)

@@ -13,9 +13,11 @@ import re
 import pytest
 from made_study import METHODS, made_case, made_study
 
-from compare import grid, machine, table
-from compare.grid import Column, Grid, Section
-from compare.records import Defect, Growth, OwnPeriod, Phase, Study
+from compare.measure.records import Defect, Growth, OwnPeriod, Phase, Study
+from compare.show import machine
+from compare.show import study as table
+from compare.show import text_table as grid
+from compare.show.text_table import Column, Grid, Section
 
 STUDY = made_study()
 DEFAULT_TABLES = ("error_vs_n", "order", "energy_drift")

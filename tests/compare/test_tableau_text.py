@@ -10,12 +10,12 @@ import pytest
 from flint import arb
 
 from compare.__main__ import main
-from compare.algebraic import Q, enclose, root
-from compare.description import describe
 from compare.methods import METHODS, find
-from compare.numerals import closed_form, decimal_form, latex_form
-from compare.tableau_text import FORMATS, render
-from reference.precision import ctx
+from compare.methods.order.algebraic import Q, enclose, root
+from compare.show.method import describe
+from compare.show.method_text import FORMATS, render
+from compare.show.numerals import closed_form, decimal_form, latex_form
+from reference.arithmetic.precision import ctx
 
 RK4 = """\
   0 |

@@ -13,17 +13,16 @@ import pytest
 from flint import arb
 
 import compare
-from compare.algebraic import Q, enclose
-from compare.aspects import aspect_of
-from compare.bound import plain_system
-from compare.forest import order_by_steps
-from compare.march import Lane, march, sample_steps
+from compare.march.equation import plain_system
+from compare.march.march import Lane, march, sample_steps
+from compare.march.precision import FORMATS, Precision, precision
+from compare.march.trace import compile_block
+from compare.measure.aspects import aspect_of
 from compare.methods import find
+from compare.methods.kinds.taylor import Taylor
+from compare.methods.order.algebraic import Q, enclose
+from compare.methods.order.forest import order_by_steps
 from compare.methods.taylor import TAYLOR, TAYLOR4, TAYLOR8, TAYLOR20
-from compare.paths import CycloidCurve, PolarByPsi, PolarByZ
-from compare.precision import FORMATS, Precision, precision
-from compare.taylor import Taylor
-from compare.trace import compile_block
 from reference import (
     Cycloid,
     CycloidalPendulum,
@@ -34,13 +33,14 @@ from reference import (
     Tautochrone,
     Tunnel,
 )
-from reference.arithmetic import BALL, Heyoka
-from reference.dual import DualArithmetic
-from reference.jet import jet
-from reference.precision import ctx
+from reference.arithmetic.dual import DualArithmetic
+from reference.arithmetic.namespaces import BALL, Heyoka
+from reference.arithmetic.precision import ctx
+from reference.arithmetic.series import jet
+from reference.problems.paths import CycloidCurve, PolarByPsi, PolarByZ
 
 if TYPE_CHECKING:
-    from compare.contract import State
+    from compare.methods.kinds.protocol import State
     from reference.problem import Problem
 
 FLOAT64 = precision("float64")

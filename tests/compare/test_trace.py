@@ -9,16 +9,16 @@ import heyoka as hy
 import numpy as np
 import pytest
 
-from compare.algebraic import Q
-from compare.bound import plain_system
-from compare.method import Tableau
+from compare.march.equation import plain_system
+from compare.march.precision import FORMATS, Precision, precision
+from compare.march.trace import TraceError, compile_block, entry_rows, plain_block
 from compare.methods import METHODS, find
-from compare.precision import FORMATS, Precision, precision
-from compare.trace import TraceError, compile_block, entry_rows, plain_block
+from compare.methods.kinds.one_step import Tableau
+from compare.methods.order.algebraic import Q
 from reference import Pendulum
 
 if TYPE_CHECKING:
-    from compare.contract import Method
+    from compare.methods.kinds.protocol import Method
 
 FLOAT64 = precision("float64")
 PENDULUM = Pendulum(1.0)

@@ -6,7 +6,7 @@ from fractions import Fraction
 
 import pytest
 
-from compare.words import DRIFT, KICK, coefficient, lyndon_words, nystrom_words, odd_words
+from compare.methods.order.lyndon_words import DRIFT, KICK, coefficient, lyndon_words, nystrom_words, odd_words
 
 
 def test_lyndon_words_are_as_many_as_the_free_lie_algebra_has_dimensions() -> None:

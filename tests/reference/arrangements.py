@@ -24,14 +24,14 @@ import sys
 from pathlib import Path
 
 import reference
-from reference import build as building
-from reference.blocks import compute
-from reference.build import build
-from reference.groups import pendulum as groups
-from reference.marked import LOCK
-from reference.partial import partial, place_of
-from reference.plan import Group, Plan
-from reference.terminal import run
+from reference.command.marked import LOCK
+from reference.command.terminal import run
+from reference.dataset import build as building
+from reference.dataset.blocks import compute
+from reference.dataset.build import build
+from reference.dataset.partial import partial, place_of
+from reference.dataset.plan import Group, Plan
+from reference.problems.pendulum import family as groups
 
 PLAN = Plan("core", (Group(groups.DIMENSIONLESS, groups.UNIT, {"amplitude": [0.5], "time": [0.0, 0.25]}),))
 OTHER = Plan("core", (Group(groups.DIMENSIONLESS, groups.UNIT, {"amplitude": [0.25], "time": [0.0]}),))

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 from plans import SMALL
 
-from reference.build import build
+from reference.dataset.build import build
 
 
 @pytest.fixture(scope="session")

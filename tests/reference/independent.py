@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from flint import arb, fmpq
 
-from reference.precision import ctx, mp
+from reference.arithmetic.precision import ctx, mp
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
-from reference.precision import mp
+from reference.arithmetic.precision import mp
 
 
 def number(x: Fraction | float) -> Any:

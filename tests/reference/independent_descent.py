@@ -13,7 +13,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from reference.precision import mp
+from reference.arithmetic.precision import mp
 
 __all__ = ["arc_length", "passage", "place"]
 

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 from flint import acb, arb, fmpq
 
-from reference.precision import ctx, mp
+from reference.arithmetic.precision import ctx, mp
 
 if TYPE_CHECKING:
     from fractions import Fraction

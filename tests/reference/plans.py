@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from reference.groups import pendulum as groups
-from reference.plan import Group, Plan
+from reference.dataset.plan import Group, Plan
+from reference.problems.pendulum import family as groups
 
 SMALL = Plan(
     "core",

@@ -15,8 +15,8 @@ from independent_cycloid import Descent, swing
 from independent_descent import arc_length, passage, place
 from recomputed_central import CENTRAL
 
-from reference.groups.descent import CURVE
-from reference.precision import mp
+from reference.arithmetic.precision import mp
+from reference.problems.descent.family import CURVE
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 from independent import fraction
 from independent_polar import Amplitude, ball, rolled
 
-from reference.precision import ctx, mp
+from reference.arithmetic.precision import ctx, mp
 
 if TYPE_CHECKING:
     from collections.abc import Callable

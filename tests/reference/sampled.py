@@ -8,13 +8,13 @@ from typing import TYPE_CHECKING, Any
 from independent import correct_limbs, fraction
 from recomputed import RECOMPUTED
 
-from reference.precision import mp
+from reference.arithmetic.precision import mp
 
 if TYPE_CHECKING:
     import random
     from collections.abc import Iterator
 
-    from reference.store import Dataset, Variable
+    from reference.dataset import Dataset, Variable
 
 __all__ = ["elements", "misrounded"]
 

@@ -9,7 +9,6 @@ import numpy as np
 import pytest
 
 import reference
-from compare.paths import CycloidCurve, PolarByPsi, PolarByZ
 from reference import (
     Certified,
     Cycloid,
@@ -23,8 +22,9 @@ from reference import (
     Tunnel,
 )
 from reference.__main__ import main
-from reference.families import FAMILIES
-from reference.limbs import MAX_DIGITS, MAX_LIMBS, WorkBoundError
+from reference.arithmetic.limbs import MAX_DIGITS, MAX_LIMBS, WorkBoundError
+from reference.problems.families import FAMILIES
+from reference.problems.paths import CycloidCurve, PolarByPsi, PolarByZ
 from reference.problems.pendulum import LindstedtMotion, PendulumSeries
 
 HALF = Fraction(1, 2)
@@ -299,10 +299,10 @@ def test_no_option_takes_what_is_no_number(capsys, family):
 
 
 def test_paths_of_bytes_are_refused(tmp_path):
-    from reference.build import build
-    from reference.catalogue import plan
-    from reference.grids import plan_from
-    from reference.verify import verify
+    from reference.dataset.build import build
+    from reference.dataset.grids import plan_from
+    from reference.dataset.verify import verify
+    from reference.problems.catalogue import plan
 
     for path in (b"file.h5", 7, object()):
         refused(lambda path=path: reference.load(path), "the path is of type")

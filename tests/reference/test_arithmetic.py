@@ -8,11 +8,11 @@ import numpy as np
 import pytest
 from flint import acb, arb, arb_series
 
-from reference.arithmetic import BALL, MPMATH, NUMPY, ComplexBall, Heyoka
-from reference.balls import SERIES
-from reference.compiler import hy
-from reference.dual import DualArithmetic, with_slope
-from reference.precision import ctx, mp
+from reference.arithmetic.balls import SERIES
+from reference.arithmetic.compiler import hy
+from reference.arithmetic.dual import DualArithmetic, with_slope
+from reference.arithmetic.namespaces import BALL, MPMATH, NUMPY, ComplexBall, Heyoka
+from reference.arithmetic.precision import ctx, mp
 
 FUNCTIONS = ("sin", "cos", "tan", "asin", "acos", "atan", "sinh", "cosh", "tanh", "exp", "log", "sqrt")
 POINT = Fraction(3, 8)

@@ -9,7 +9,7 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
-from reference.binary64 import (
+from reference.arithmetic.binary64 import (
     bits_of,
     exact_value,
     hexadecimal,

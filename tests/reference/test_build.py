@@ -13,15 +13,15 @@ import pytest
 from plans import TINY, leftovers
 
 import reference
-from reference import build as building
-from reference import catalogue
-from reference.blocks import spread
-from reference.build import build
-from reference.certify import Agreement
-from reference.groups import pendulum as groups
-from reference.plan import BLOCK_LENGTH, Group, Plan
-from reference.store import load
-from reference.store.checksums import note_checksum
+from reference.certified import Agreement
+from reference.dataset import build as building
+from reference.dataset import load
+from reference.dataset.blocks import spread
+from reference.dataset.build import build
+from reference.dataset.checksums import note_checksum
+from reference.dataset.plan import BLOCK_LENGTH, Group, Plan
+from reference.problems import catalogue
+from reference.problems.pendulum import family as groups
 
 ROOT = Path(reference.__file__).parents[1]
 
@@ -64,7 +64,7 @@ def test_a_long_row_is_cut_into_blocks_that_cover_it():
 
 
 def test_a_build_of_several_blocks_a_row_stores_each_in_its_place(tmp_path, monkeypatch):
-    monkeypatch.setattr("reference.plan.BLOCK_LENGTH", 2)
+    monkeypatch.setattr("reference.dataset.plan.BLOCK_LENGTH", 2)
     whole = tmp_path / "x.h5"
     build(TINY, whole)
     monkeypatch.undo()
@@ -85,7 +85,7 @@ def test_routes_are_counted_over_what_they_serve(tmp_path):
 
 
 def test_a_trajectory_that_a_route_left_out_stops_the_build(tmp_path, monkeypatch):
-    from reference import blocks
+    from reference.dataset import blocks
 
     def partly(problem, _row, arguments, route):
         if route == "taylor" and problem.theta0 == 2:
@@ -155,8 +155,8 @@ def test_a_full_disk_leaves_the_old_file_and_nothing_else(tmp_path, limit):
     program = textwrap.dedent(f"""
         import resource, signal
         from reference import build as building, catalogue
-        from reference.groups import pendulum as groups
-        from reference.plan import Group, Plan
+        from reference.problems.pendulum import family as groups
+        from reference.dataset.plan import Group, Plan
         times = [0.0, 1.0, 2.0**20]
         signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
         resource.setrlimit(resource.RLIMIT_FSIZE, ({limit}, {limit}))

@@ -5,8 +5,8 @@ from fractions import Fraction
 import pytest
 from flint import arb
 
-from reference.arithmetic import BALL, MPMATH, ComplexBall
-from reference.precision import ctx, mp
+from reference.arithmetic.namespaces import BALL, MPMATH, ComplexBall
+from reference.arithmetic.precision import ctx, mp
 
 BITS = 400
 

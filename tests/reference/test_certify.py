@@ -9,9 +9,9 @@ import pytest
 from independent import correct_limbs, fraction
 
 from reference import Certified, Descent, Pendulum, PolarBrachistochrone
-from reference.certify import DisagreementError, agreement
-from reference.limbs import WorkBoundError
-from reference.precision import mp
+from reference.arithmetic.limbs import WorkBoundError
+from reference.arithmetic.precision import mp
+from reference.certified import DisagreementError, agreement
 
 
 def period_to(bits: int):

@@ -11,9 +11,9 @@ import pytest
 from independent import correct_limbs, landen_states
 
 from reference import Pendulum
-from reference.arithmetic import BALL
-from reference.limbs import of_ball, to_limbs
-from reference.precision import ctx
+from reference.arithmetic.limbs import of_ball, to_limbs
+from reference.arithmetic.namespaces import BALL
+from reference.arithmetic.precision import ctx
 from reference.problems.pendulum.chart import MANY, Chart
 from reference.routes import enclosure
 

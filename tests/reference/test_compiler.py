@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from reference.compiler import hy, not_kept
+from reference.arithmetic.compiler import hy, not_kept
 
 
 def test_the_cache_is_as_it_was_after_an_error() -> None:
@@ -24,7 +24,7 @@ def test_the_cache_is_as_it_was_after_an_error() -> None:
 def test_the_taylor_route_does_not_grow_the_cache(tmp_path: Path) -> None:
     """In a cache of its own: another program may write to the user's at the same time."""
     code = (
-        "from reference.compiler import hy; from reference import LinearPendulum; "
+        "from reference.arithmetic.compiler import hy; from reference import LinearPendulum; "
         "size = hy.llvm_state.get_diskcache_size; before = size(); "
         "assert LinearPendulum('0.87654321').period().routes['taylor'] >= 45; assert size() == before; "
         "hy.cfunc([hy.sin(hy.make_vars('x'))], vars=hy.make_vars('x', 'y')[:1]); assert size() > before"

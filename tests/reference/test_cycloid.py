@@ -13,10 +13,10 @@ import pytest
 from independent import correct_limbs, fraction
 from independent_cycloid import Descent, number
 
-from reference.arithmetic import BALL, MPMATH, NUMPY, Heyoka
-from reference.certify import ROUTES, agreement
-from reference.limbs import WorkBoundError
-from reference.precision import ctx, mp
+from reference.arithmetic.limbs import WorkBoundError
+from reference.arithmetic.namespaces import BALL, MPMATH, NUMPY, Heyoka
+from reference.arithmetic.precision import ctx, mp
+from reference.certified import ROUTES, agreement
 from reference.problems.cycloid import Cycloid, CycloidArc
 from reference.problems.cycloid.equations import arc_acceleration, arc_energy, depth, point_below_cusp, run
 from reference.problems.cycloid.neighbours import excess, slowness

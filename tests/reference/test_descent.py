@@ -10,10 +10,10 @@ import pytest
 from independent import correct_limbs, fraction
 from independent_descent import arc_length, passage, place
 
-from reference.arithmetic import NUMPY
-from reference.certify import agreement
-from reference.limbs import WorkBoundError
-from reference.precision import mp
+from reference.arithmetic.limbs import WorkBoundError
+from reference.arithmetic.namespaces import NUMPY
+from reference.arithmetic.precision import mp
+from reference.certified import agreement
 from reference.problems.descent import RACE, Descent
 
 NAMES = [curve.name for curve in RACE]

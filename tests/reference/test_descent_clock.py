@@ -10,8 +10,8 @@ from flint import acb, arb, arb_series
 from independent import fraction
 from independent_descent import arc_length, passage
 
-from reference.balls import BALL, SERIES, ComplexBall
-from reference.precision import ctx, mp
+from reference.arithmetic.balls import BALL, SERIES, ComplexBall
+from reference.arithmetic.precision import ctx, mp
 from reference.problems.descent import RACE, Descent
 from reference.problems.descent.chebyshev import ChebyshevClock
 from reference.problems.descent.clock import REACH, NoChartError, Primitive, arc, clock, pieces

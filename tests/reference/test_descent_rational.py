@@ -7,9 +7,9 @@ from fractions import Fraction
 
 import pytest
 
-from reference.exact import rational_root
-from reference.expression import Expression
-from reference.precision import mp
+from reference.arithmetic.exact import rational_root
+from reference.arithmetic.formula import Expression
+from reference.arithmetic.precision import mp
 from reference.problems.descent import RACE, Descent
 from reference.problems.descent.exactly import COSINES, exactly
 from reference.problems.descent.surds import PI, UNKNOWN, NotExactError, Surd, surd

@@ -8,15 +8,15 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from reference.arithmetic import MPMATH
-from reference.precision import mp
+from reference.arithmetic.namespaces import MPMATH
+from reference.arithmetic.precision import mp
 from reference.problems.descent import Descent
 from reference.problems.descent.clock import MAX_DISCS, pieces
 from reference.problems.descent.curves import spelled_curve
 from reference.problems.descent.reality import unreal
 
 if TYPE_CHECKING:
-    from reference.expression import Expression
+    from reference.arithmetic.formula import Expression
 
 UNREAL = {
     "x+acos(2)": "is not real and finite: 'acos(2)' is the arc cosine of 2;",

@@ -8,8 +8,8 @@ from fractions import Fraction
 import pytest
 
 from reference.__main__ import main
+from reference.command.terminal import run
 from reference.problems.descent import Descent
-from reference.terminal import run
 
 VERTICAL = "a curve that is vertical there is accepted by a parameter, 'x = ...; y = ...'."
 REFUSED = {

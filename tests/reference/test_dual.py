@@ -6,10 +6,10 @@ import pytest
 from flint import arb
 from independent import ball
 
-from reference.arithmetic import BALL, MPMATH
-from reference.dual import DualArithmetic
-from reference.elliptic import BallElliptic, MpmathElliptic
-from reference.precision import ctx, mp
+from reference.arithmetic.dual import DualArithmetic
+from reference.arithmetic.elliptic import BallElliptic, MpmathElliptic
+from reference.arithmetic.namespaces import BALL, MPMATH
+from reference.arithmetic.precision import ctx, mp
 
 MODULI = (0.05, 0.6, 0.999)
 NAMES = ("sn", "cn", "dn", "epsilon", "first", "second")

@@ -8,8 +8,8 @@ import pytest
 from flint import arb
 from independent import ball, fraction
 
-from reference.elliptic import BallElliptic, MpmathElliptic, sine_polynomial
-from reference.precision import ctx, mp
+from reference.arithmetic.elliptic import BallElliptic, MpmathElliptic, sine_polynomial
+from reference.arithmetic.precision import ctx, mp
 
 ANGLES = (1e-3, 0.5, math.pi / 2, 3.0, math.pi - 1e-6)
 """theta0 of the modulus k = sin(theta0/2)."""

@@ -11,7 +11,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from reference.exact import MAX_DIGITS, as_number, exact, exact_array, expansion, positive, spelled
+from reference.arithmetic.exact import MAX_DIGITS, as_number, exact, exact_array, expansion, positive, spelled
 
 FLOATS = st.floats(allow_nan=False, allow_infinity=False)
 

@@ -12,7 +12,7 @@ from multiprocessing import util
 
 import pytest
 
-from reference.executors import WorkerError, opened, processes, results
+from reference.command.executors import WorkerError, opened, processes, results
 
 
 def test_never_more_than_a_few_tasks_wait_for_a_worker():
@@ -76,7 +76,7 @@ def test_processes_end_at_once_on_an_error_and_leave_no_traceback(monkeypatch):
     with pytest.raises(KeyboardInterrupt), opened("process", 2) as pool:  # noqa: PT012 (the block is what is tested)
         answers = results(pool, last, range(20), 2)
         pool.submit(abs, 1)
-        monkeypatch.setattr("reference.executors.wait", interrupted)
+        monkeypatch.setattr("reference.command.executors.wait", interrupted)
         next(answers)
     assert uncaught == []
     assert time.monotonic() - begun < 50
@@ -88,7 +88,7 @@ def interrupted(*_args, **_kwargs):
 
 
 def test_nobody_but_the_pool_cancels_what_its_processes_were_to_do(monkeypatch):
-    monkeypatch.setattr("reference.executors.wait", interrupted)
+    monkeypatch.setattr("reference.command.executors.wait", interrupted)
     futures = []
     with pytest.raises(KeyboardInterrupt), opened("process", 2) as pool:  # noqa: PT012 (the block is what is tested)
         submit = pool.submit

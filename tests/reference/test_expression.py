@@ -8,12 +8,12 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
-from reference.arithmetic import BALL, MPMATH, NUMPY, ComplexBall, Heyoka
-from reference.compiler import hy
-from reference.dual import with_slope
-from reference.expression import FUNCTIONS, MAX_DEPTH, MAX_LENGTH, Expression
-from reference.precision import ctx, mp
-from reference.real_domains import real
+from reference.arithmetic.compiler import hy
+from reference.arithmetic.dual import with_slope
+from reference.arithmetic.formula import FUNCTIONS, MAX_DEPTH, MAX_LENGTH, Expression
+from reference.arithmetic.namespaces import BALL, MPMATH, NUMPY, ComplexBall, Heyoka
+from reference.arithmetic.precision import ctx, mp
+from reference.arithmetic.real_domains import real
 
 FORMULAS = {
     "2*(x/pi)**4": lambda x: 2 * (x / math.pi) ** 4,

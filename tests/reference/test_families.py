@@ -9,7 +9,7 @@ import pytest
 
 import reference
 from reference.__main__ import main
-from reference.families import FAMILIES
+from reference.problems.families import FAMILIES
 
 MOVING = "x y speed velocity_x velocity_y place place_rate"
 PASSING = "passage_time passage_x passage_y passage_speed passage_velocity_x"

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from reference import Pendulum
-from reference.limbs import fixed
+from reference.arithmetic.limbs import fixed
 
 START = Fraction(0)
 NUMBERS = {

@@ -7,7 +7,7 @@ import pytest
 
 import reference
 from reference.__main__ import main
-from reference.grids import plan_from
+from reference.dataset.grids import plan_from
 
 GOOD = """
 [[group]]

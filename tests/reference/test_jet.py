@@ -9,12 +9,12 @@ from typing import Any
 import pytest
 from flint import arb, arb_series
 
-from reference.arithmetic import BALL, NUMPY
-from reference.balls import SERIES
-from reference.dual import DualArithmetic, with_slope
-from reference.expression import FUNCTIONS, Expression
-from reference.jet import Series, SeriesArithmetic, jet
-from reference.precision import ctx
+from reference.arithmetic.balls import SERIES
+from reference.arithmetic.dual import DualArithmetic, with_slope
+from reference.arithmetic.formula import FUNCTIONS, Expression
+from reference.arithmetic.namespaces import BALL, NUMPY
+from reference.arithmetic.precision import ctx
+from reference.arithmetic.series import Series, SeriesArithmetic, jet
 
 ORDER = 12
 COEFFICIENTS = (

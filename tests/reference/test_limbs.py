@@ -11,8 +11,18 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 from independent import correct_limbs, nearest_double
 
-from reference.limbs import WorkBoundError, decimal, exact_decimal, exact_limbs, interval, limbs, of_ball, rounded, ziv
-from reference.precision import ctx
+from reference.arithmetic.limbs import (
+    WorkBoundError,
+    decimal,
+    exact_decimal,
+    exact_limbs,
+    interval,
+    limbs,
+    of_ball,
+    rounded,
+    ziv,
+)
+from reference.arithmetic.precision import ctx
 
 MANTISSAS = st.integers(-(2**200), 2**200)
 EXPONENTS = st.integers(-1300, 700)

@@ -11,8 +11,8 @@ import pytest
 from independent import correct_limbs, fraction, general_state
 
 from reference import Pendulum
-from reference.certify import agreement
-from reference.precision import mp
+from reference.arithmetic.precision import mp
+from reference.certified import agreement
 from reference.problems.pendulum.quantities import SERVED
 
 STARTS = {

@@ -13,9 +13,9 @@ import pytest
 from independent import correct_limbs, fraction, landen_states, mpmath_states
 
 from reference import Pendulum
-from reference.arithmetic import BALL, MPMATH, NUMPY, Heyoka
-from reference.limbs import WorkBoundError
-from reference.precision import ctx, mp
+from reference.arithmetic.limbs import WorkBoundError
+from reference.arithmetic.namespaces import BALL, MPMATH, NUMPY, Heyoka
+from reference.arithmetic.precision import ctx, mp
 from reference.problems.pendulum.equations import angular_acceleration, energy, energy_above_rest
 from reference.problems.pendulum.events import MAX_EVENTS
 

@@ -9,9 +9,9 @@ import pytest
 from independent import agm_period, condition_number, correct_limbs, fraction, general_state, released_state
 
 from reference import Pendulum
-from reference.arithmetic import MPMATH
-from reference.limbs import WorkBoundError
-from reference.precision import mp
+from reference.arithmetic.limbs import WorkBoundError
+from reference.arithmetic.namespaces import MPMATH
+from reference.arithmetic.precision import mp
 
 G, LATE = 9.81, 2.0**30
 OVER = 2 * math.sqrt(G) * (1 + 1e-12)

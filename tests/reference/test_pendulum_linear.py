@@ -11,9 +11,9 @@ import pytest
 from independent import correct_limbs, fraction
 
 from reference import Pendulum
-from reference.arithmetic import MPMATH
-from reference.certify import agreement
-from reference.precision import mp
+from reference.arithmetic.namespaces import MPMATH
+from reference.arithmetic.precision import mp
+from reference.certified import agreement
 from reference.problems.pendulum import LinearPendulum
 
 PENDULUMS = (

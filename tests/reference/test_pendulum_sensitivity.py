@@ -11,8 +11,8 @@ import pytest
 from independent import agm_period, condition_number, correct_limbs, fraction, released_state
 
 from reference import Pendulum
-from reference.certify import agreement
-from reference.precision import mp
+from reference.arithmetic.precision import mp
+from reference.certified import agreement
 
 BITS = 3 * 159 + 100
 TIMES = [0.7, 3.1, 9.5]

@@ -10,9 +10,9 @@ import pytest
 from independent import agm_period, correct_limbs, fraction, released_state
 
 from reference import Pendulum
-from reference.arithmetic import MPMATH
-from reference.certify import agreement
-from reference.precision import mp
+from reference.arithmetic.namespaces import MPMATH
+from reference.arithmetic.precision import mp
+from reference.certified import agreement
 from reference.problems.pendulum import LindstedtMotion, PendulumSeries, contour, series
 
 ORDERS = (0, 1, 2, 5, 8)

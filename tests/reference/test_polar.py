@@ -13,10 +13,10 @@ from flint import arb
 from independent import correct_limbs, fraction
 from independent_polar import BITS, Amplitude, ball, complete
 
-from reference.arithmetic import BALL, MPMATH, NUMPY, Heyoka
-from reference.certify import agreement
-from reference.limbs import WorkBoundError
-from reference.precision import ctx, mp
+from reference.arithmetic.limbs import WorkBoundError
+from reference.arithmetic.namespaces import BALL, MPMATH, NUMPY, Heyoka
+from reference.arithmetic.precision import ctx, mp
+from reference.certified import agreement
 from reference.problems.polar import PolarBrachistochrone
 from reference.problems.polar.equations import POINT_MASS
 from reference.problems.polar.series import surface_coefficients

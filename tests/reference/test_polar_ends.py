@@ -12,9 +12,9 @@ from flint import arb
 from independent import correct_limbs, fraction
 from independent_polar import Amplitude, ball
 
-from reference.arithmetic import BALL
-from reference.limbs import WorkBoundError
-from reference.precision import ctx
+from reference.arithmetic.limbs import WorkBoundError
+from reference.arithmetic.namespaces import BALL
+from reference.arithmetic.precision import ctx
 from reference.problems.polar import PolarBrachistochrone
 from reference.problems.polar.boundary import _approach
 from reference.problems.tunnel import Tunnel

@@ -10,8 +10,8 @@ import pytest
 from flint import arb
 from independent_polar import POINT_MASS, UNIFORM_BALL, chord_time, neighbour_time, number
 
-from reference.arithmetic import BALL
-from reference.precision import ctx, mp
+from reference.arithmetic.namespaces import BALL
+from reference.arithmetic.precision import ctx, mp
 from reference.problems.polar import PolarBrachistochrone
 from reference.problems.polar.panels import Panels, Schedule, panels_of
 from reference.problems.polar.periodic import periodic_ball, periodic_mpmath

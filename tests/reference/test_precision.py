@@ -18,12 +18,12 @@ import pytest
 from flint import arb, arb_series
 
 from reference import Cycloid, CycloidalPendulum, Descent, Pendulum, PolarBrachistochrone, Tautochrone, Tunnel
-from reference.arithmetic import BALL
-from reference.balls import SERIES
-from reference.elliptic import BallElliptic, sine_polynomial
-from reference.limbs import WorkBoundError
+from reference.arithmetic.balls import SERIES
+from reference.arithmetic.elliptic import BallElliptic, sine_polynomial
+from reference.arithmetic.limbs import WorkBoundError
+from reference.arithmetic.namespaces import BALL
+from reference.arithmetic.precision import PrecisionError, ctx, held, mp
 from reference.once import cached_property
-from reference.precision import PrecisionError, ctx, held, mp
 from reference.problems.descent.clock import Primitive, clock
 
 ROOT = Path(__file__).parents[2]

@@ -7,10 +7,10 @@ from fractions import Fraction
 import pytest
 from flint import arb
 
-from reference.balls import BALL
-from reference.expression import Expression
-from reference.precision import ctx
-from reference.real_domains import OutsideDomainError, real
+from reference.arithmetic.balls import BALL
+from reference.arithmetic.formula import Expression
+from reference.arithmetic.precision import ctx
+from reference.arithmetic.real_domains import OutsideDomainError, real
 
 CERTAIN = {
     "x + acos(2)": "'acos(2)' is the arc cosine of 2",

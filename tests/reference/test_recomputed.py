@@ -7,7 +7,7 @@ from recomputed import RECOMPUTED
 from sampled import elements, misrounded
 
 import reference
-from reference.catalogue import LAYOUTS
+from reference.problems.catalogue import LAYOUTS
 
 
 @pytest.fixture(scope="module")

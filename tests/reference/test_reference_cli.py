@@ -14,14 +14,15 @@ import numpy as np
 import pytest
 
 import reference
-from reference import Pendulum, catalogue
+from reference import Pendulum
 from reference.__main__ import main
-from reference.build import build
-from reference.cite import FORMATS as CITE_FORMATS
-from reference.groups import pendulum as groups
-from reference.plan import Group, Plan
-from reference.store import core_path
-from reference.terminal import run
+from reference.command.terminal import run
+from reference.dataset import core_path
+from reference.dataset.build import build
+from reference.dataset.cite import FORMATS as CITE_FORMATS
+from reference.dataset.plan import Group, Plan
+from reference.problems import catalogue
+from reference.problems.pendulum import family as groups
 
 ROOT = Path(reference.__file__).parents[1]
 AT = ["at", "pendulum", "--theta0", "1", "--t", "10"]
@@ -94,7 +95,7 @@ def test_a_number_is_binary64_and_with_exact_as_written(capsys):
 
 
 def _time(value):
-    from reference.exact import exact
+    from reference.arithmetic.exact import exact
 
     return (exact(value),)
 
@@ -197,10 +198,10 @@ def test_verify_prints_a_line_a_variable(capsys, tiny):
 
 
 def test_a_failed_proof_is_exit_code_1(capsys, tiny, monkeypatch):
-    import reference.verify
+    import reference.dataset.verify
 
-    failed = [reference.verify.Proof("x", Pendulum.rows[0], 1, 1, "differs")]
-    monkeypatch.setattr(reference.verify, "verify", lambda *_, **__: failed)
+    failed = [reference.dataset.verify.Proof("x", Pendulum.rows[0], 1, 1, "differs")]
+    monkeypatch.setattr(reference.dataset.verify, "verify", lambda *_, **__: failed)
     assert called("verify", tiny) == 1
     assert capsys.readouterr().out == "FAILED  x: differs\n0 of 1 variables proven.\n"
 

@@ -9,12 +9,12 @@ import pytest
 from plans import TINY, leftovers
 
 import reference
-from reference import build as building
-from reference.blocks import Result, compute
-from reference.build import build
-from reference.groups import pendulum as groups
-from reference.partial import BusyError, partial
-from reference.plan import Group, Plan
+from reference.dataset import build as building
+from reference.dataset.blocks import Result, compute
+from reference.dataset.build import build
+from reference.dataset.partial import BusyError, partial
+from reference.dataset.plan import Group, Plan
+from reference.problems.pendulum import family as groups
 
 
 def test_an_interrupted_build_goes_on_where_it_stopped(tmp_path, monkeypatch):

@@ -11,9 +11,9 @@ from hypothesis import strategies as st
 from independent import fraction, mpmath_states
 
 from reference import Pendulum
-from reference.certify import REQUIRED_DIGITS, ROUTES, agreement
-from reference.limbs import interval
-from reference.precision import ctx, mp
+from reference.arithmetic.limbs import interval
+from reference.arithmetic.precision import ctx, mp
+from reference.certified import REQUIRED_DIGITS, ROUTES, agreement
 from reference.routes import enclosure, quadrature, taylor
 
 ROWS_OF_TIME = ("state", "sensitivity")
@@ -66,7 +66,7 @@ def test_the_period_by_quadrature_uses_no_elliptic_function(monkeypatch):
     expected = Fraction(Pendulum(1.0).period().digits(70))
     for name in ("ellipk", "ellipf", "ellipfun", "agm"):
         monkeypatch.setattr(mp, name, forbidden)
-    monkeypatch.setattr("reference.elliptic.MpmathElliptic.__init__", lambda *_: None)
+    monkeypatch.setattr("reference.arithmetic.elliptic.MpmathElliptic.__init__", lambda *_: None)
     ((found,),) = Pendulum(1.0).by_route("quadrature", "period", [None], 60)
     assert abs(found - expected) < Fraction(1, 10**60)
 

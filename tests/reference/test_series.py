@@ -7,8 +7,8 @@ from fractions import Fraction as Q
 import pytest
 
 from reference import Pendulum
-from reference.arithmetic import MPMATH
-from reference.precision import mp
+from reference.arithmetic.namespaces import MPMATH
+from reference.arithmetic.precision import mp
 from reference.problems.pendulum.series import lindstedt, period_series
 
 

@@ -14,14 +14,14 @@ from h5py import h5d, h5z
 from plans import SMALL
 
 import reference
-from reference.catalogue import LAYOUTS
-from reference.groups import pendulum as groups
-from reference.plan import Coordinate, Group, Layout
+from reference.dataset import DatasetError, core_path, load
+from reference.dataset.fingerprint import pieces
+from reference.dataset.plan import Coordinate, Group, Layout
+from reference.dataset.schema import arrays
+from reference.dataset.versions import NEWEST
+from reference.problems.catalogue import LAYOUTS
 from reference.problems.pendulum import Pendulum
-from reference.store import DatasetError, core_path, load
-from reference.store.fingerprint import pieces
-from reference.store.schema import arrays
-from reference.store.versions import NEWEST
+from reference.problems.pendulum import family as groups
 
 
 def datasets(file):
@@ -248,7 +248,7 @@ def test_every_stored_trajectory_agrees_by_both_routes_to_45_digits():
 
 
 def test_the_datasheet_beside_the_core_dataset_is_the_one_of_the_file():
-    from reference.datasheet import datasheet
+    from reference.dataset.datasheet import datasheet
 
     sheet = core_path().parent / "README.md"
     assert sheet.read_text(encoding="utf-8") == datasheet(reference.load())
@@ -263,8 +263,8 @@ def test_the_numbers_of_a_checked_dataset_cannot_be_changed(built):
 
 
 def test_a_citation_has_the_year_of_the_file_or_of_its_version(built, tmp_path, monkeypatch):
-    from reference.build import build
-    from reference.cite import cite
+    from reference.dataset.build import build
+    from reference.dataset.cite import cite
 
     assert "  year      = {2026},\n" in cite(load(built))
     assert cite(load(built), "text").startswith("The Horologium developers (2026). Horologium:")
@@ -276,7 +276,7 @@ def test_a_citation_has_the_year_of_the_file_or_of_its_version(built, tmp_path, 
 
 
 def test_the_datasheet_has_a_page_for_each_group(built):
-    from reference.datasheet import datasheet
+    from reference.dataset.datasheet import datasheet
 
     dataset = reference.load(built)
     whole = datasheet(dataset)
@@ -297,7 +297,7 @@ def test_the_datasheet_has_a_page_for_each_group(built):
 
 def test_every_row_of_a_table_has_the_cells_of_its_heading(built):
     """A bar in a definition, such as a = |theta0|, is no border."""
-    from reference.datasheet import datasheet
+    from reference.dataset.datasheet import datasheet
 
     sheet = datasheet(load(built))
     assert r"dT/da, a = \|theta0\|" in sheet
@@ -309,6 +309,6 @@ def test_every_row_of_a_table_has_the_cells_of_its_heading(built):
 
 
 def test_the_datasheet_explains_a_number_of_the_file_itself(built):
-    from reference.datasheet import datasheet
+    from reference.dataset.datasheet import datasheet
 
     assert "numbers: 9.81 stands for 9.8100000000000004973799150320701301097869873046875.\n" in datasheet(load(built))

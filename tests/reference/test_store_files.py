@@ -9,9 +9,9 @@ from contextlib import suppress
 
 import pytest
 
-from reference.store.checksums import check_checksum, checksums, note_checksum
-from reference.store.files import replacing, sha256, temporaries
-from reference.store.sink import Sink
+from reference.dataset.checksums import check_checksum, checksums, note_checksum
+from reference.dataset.files import replacing, sha256, temporaries
+from reference.dataset.sink import Sink
 
 
 def leftovers(folder):

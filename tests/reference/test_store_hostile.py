@@ -15,9 +15,9 @@ import numpy as np
 import pytest
 from h5py import h5a, h5g, h5p, h5s, h5t
 
+from reference.dataset import DatasetError
+from reference.dataset.plan import Plan
 from reference.names import printable
-from reference.plan import Plan
-from reference.store import DatasetError
 
 MUCH = 64 << 20
 """Bytes: more than a refusal may take."""
@@ -257,7 +257,7 @@ def test_the_name_of_a_file_commands_no_terminal(built, tmp_path, capsys):
 
 
 def test_names_in_anothers_file_need_not_be_utf8(tmp_path):
-    from reference.store.columns import foreign_columns
+    from reference.dataset.columns import foreign_columns
 
     with h5py.File(tmp_path / "x.h5", "w") as file:
         file.create_dataset(b"thet\xff", data=[1.0])
@@ -266,7 +266,7 @@ def test_names_in_anothers_file_need_not_be_utf8(tmp_path):
 
 
 def test_a_plan_whose_file_could_not_be_read_is_not_built(tmp_path):
-    from reference.build import build
+    from reference.dataset.build import build
 
     with pytest.raises(
         ValueError, match=r"^profile 'cor' is unknown, perhaps core; accepted are core, full, and names of"

@@ -6,10 +6,10 @@ import h5py
 import numpy as np
 import pytest
 
-from reference.store import DatasetError, load
-from reference.store.checksums import note_checksum
-from reference.store.files import sha256
-from reference.store.schema import exact_texts
+from reference.dataset import DatasetError, load
+from reference.dataset.checksums import note_checksum
+from reference.dataset.files import sha256
+from reference.dataset.schema import exact_texts
 
 
 def refused(path, *words):

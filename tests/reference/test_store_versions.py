@@ -11,17 +11,17 @@ import numpy as np
 import pytest
 
 import reference
-from reference.catalogue import LAYOUTS
-from reference.cite import cite
-from reference.datasheet import datasheet
-from reference.groups import polar
-from reference.plan import Group, Plan
-from reference.show import show
-from reference.store import DatasetError, load
-from reference.store.content import fingerprint
-from reference.store.schema import RELEASED, arrays
-from reference.store.versions import NEWEST, SCHEMAS
-from reference.verify import verify
+from reference.dataset import DatasetError, load
+from reference.dataset.cite import cite
+from reference.dataset.content import fingerprint
+from reference.dataset.datasheet import datasheet
+from reference.dataset.plan import Group, Plan
+from reference.dataset.schema import RELEASED, arrays
+from reference.dataset.show import show
+from reference.dataset.verify import verify
+from reference.dataset.versions import NEWEST, SCHEMAS
+from reference.problems.catalogue import LAYOUTS
+from reference.problems.polar import family as polar
 
 DATA = Path(__file__).parent / "data"
 FILES = {"schema-1": "1", "schema-2-early": "2", "schema-2": "2"}
@@ -123,7 +123,7 @@ def test_end_points_lie_along_an_index_and_are_auxiliary_coordinates():
 
 
 def test_every_axis_of_every_profile_rises_or_falls():
-    from reference.catalogue import PROFILES, plan
+    from reference.problems.catalogue import PROFILES, plan
 
     for profile in PROFILES:
         for group in plan(profile).groups:  # which refuses what is not so

@@ -13,9 +13,9 @@ import pytest
 from independent import correct_limbs, fraction
 from independent_cycloid import number, swing
 
-from reference.arithmetic import MPMATH, NUMPY, Heyoka
-from reference.certify import ROUTES, agreement
-from reference.precision import mp
+from reference.arithmetic.namespaces import MPMATH, NUMPY, Heyoka
+from reference.arithmetic.precision import mp
+from reference.certified import ROUTES, agreement
 from reference.problems.cycloid import Cycloid, CycloidalPendulum, Tautochrone
 from reference.problems.cycloid.equations import angular_acceleration, arc_energy, swing_energy
 

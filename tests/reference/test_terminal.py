@@ -14,8 +14,8 @@ import pytest
 
 import reference
 from reference.__main__ import main
-from reference.interrupts import Terminated, held
-from reference.terminal import Parser, run
+from reference.command.interrupts import Terminated, held
+from reference.command.terminal import Parser, run
 
 ROOT = Path(reference.__file__).parents[1]
 AT = ["at", "pendulum", "--theta0", "1"]
@@ -101,9 +101,9 @@ def test_a_closed_output_is_one_sentence(words):
 def test_a_closed_output_is_no_error_where_there_is_nothing_to_say(tmp_path):
     import numpy as np
 
-    from reference.build import build
-    from reference.groups import pendulum as groups
-    from reference.plan import Group, Plan
+    from reference.dataset.build import build
+    from reference.dataset.plan import Group, Plan
+    from reference.problems.pendulum import family as groups
 
     inputs = {"amplitude": [0.5], "time": np.arange(2) / 4}
     build(Plan("core", (Group(groups.DIMENSIONLESS, groups.UNIT, inputs),)), tmp_path / "x.h5")
@@ -118,7 +118,8 @@ def test_closed_errors_keep_the_exit_code():
 
 def test_no_file_gets_the_number_of_a_closed_output():
     code = (
-        "import os; from reference.terminal import run; run(lambda _: os.write(2, b'%d' % os.open('/dev/null', 0)) * 0)"
+        "import os; from reference.command.terminal import run; "
+        "run(lambda _: os.write(2, b'%d' % os.open('/dev/null', 0)) * 0)"
     )
     assert int(shell(f'"{sys.executable}" -c "{code}" >&-').stderr) > 2
 
@@ -147,8 +148,8 @@ def test_a_signal_while_hdf5_writes_ends_the_build_and_leaves_no_file(tmp_path, 
     """HDF5 calls the sink: an exception there would be lost, and a file with a hole would take the old one's place."""
     from plans import TINY
 
-    from reference.build import build
-    from reference.store.sink import Sink
+    from reference.dataset.build import build
+    from reference.dataset.sink import Sink
 
     calls = []
     write = Sink.write

@@ -12,9 +12,9 @@ import pytest
 from independent import correct_limbs, fraction
 from independent_polar import BITS, number, rolled
 
-from reference.arithmetic import MPMATH, NUMPY, Heyoka
-from reference.certify import agreement
-from reference.precision import mp
+from reference.arithmetic.namespaces import MPMATH, NUMPY, Heyoka
+from reference.arithmetic.precision import mp
+from reference.certified import agreement
 from reference.problems.polar import PolarBrachistochrone
 from reference.problems.tunnel import Tunnel
 from reference.problems.tunnel.equations import UNIFORM_BALL

@@ -7,8 +7,8 @@ from fractions import Fraction
 import pytest
 from underflow_mode import in_the_mode, tails
 
-from reference.binary64 import parts
-from reference.underflow import is_gradual, require_gradual
+from reference.arithmetic.binary64 import parts
+from reference.arithmetic.underflow import is_gradual, require_gradual
 
 STATES = """
 import numpy as np
@@ -31,7 +31,7 @@ answer += [bits(float(Pendulum(1e-310).certified("state", 1)))]
 """
 INPUTS = """
 import numpy as np
-from reference.exact import as_number, exact, exact_array
+from reference.arithmetic.exact import as_number, exact, exact_array
 values = [5e-324, -1e-310, np.float64(3e-320), of_bits([1], "f4")[0], of_bits([3], "f2")[0], 0.1]
 answer = [str(exact(value)) for value in values]
 answer += [str(exact(as_number(exact(value)))) for value in values]
@@ -43,12 +43,12 @@ answer += [list(map(str, exact_array(array)[0])) for array in (
 BUILT = """
 import h5py, io, sys
 import numpy as np
-from reference.build import build
-from reference.groups import pendulum as groups
-from reference.plan import Group, Plan
-from reference.store import load
-from reference.store.content import fingerprint
-from reference.verify import verify
+from reference.dataset.build import build
+from reference.problems.pendulum import family as groups
+from reference.dataset.plan import Group, Plan
+from reference.dataset import load
+from reference.dataset.content import fingerprint
+from reference.dataset.verify import verify
 inputs = {"amplitude": [0.5, 2.0], "time": [0.0, 1e-310, 1e299, 2.5e300]}
 plan = Plan("core", (Group(groups.LONG, {"g": 1e-300, "length": 1e300}, inputs),))
 build(plan, "tiny.h5")
@@ -60,8 +60,8 @@ answer += [found["pendulum/long/time"].attrs[name] for name in ("decimal", "hex"
 FORGED = """
 import h5py
 import numpy as np
-from reference.store.content import fingerprint
-from reference.verify import verify
+from reference.dataset.content import fingerprint
+from reference.dataset.verify import verify
 with h5py.File("tiny.h5", "r+", libver=("v110", "v110")) as file:
     tail = file["pendulum/long/omega_tail"]
     forged = tail[...].view(np.uint64)
@@ -81,7 +81,7 @@ from reference.__main__ import main as reference_main
 from compare.__main__ import main as compare_main
 import compare
 from reference import Pendulum
-from reference.underflow import UnderflowModeError
+from reference.arithmetic.underflow import UnderflowModeError
 answer = []
 for main, words in ((reference_main, ["at", "pendulum", "--theta0", "1e-310", "--json"]), (compare_main, ["methods"])):
     with contextlib.redirect_stderr(io.StringIO()) as said:
@@ -106,7 +106,7 @@ SENTENCE = (
 def test_the_mode_is_seen_and_threads_that_are_started_have_it_too():
     seen = """
 import threading
-from reference.underflow import is_gradual
+from reference.arithmetic.underflow import is_gradual
 answer = [is_gradual(), 1e-310 * 1.0 == 0.0]
 thread = threading.Thread(target=lambda: answer.append(is_gradual()))
 thread.start()
@@ -124,7 +124,7 @@ def test_subnormal_limbs_are_the_exact_ones():
 
 def test_tiny_numbers_have_subnormal_limbs_that_leave_less_than_half_of_the_last_bit():
     """By rational arithmetic alone, on the bits that the process with the mode gave."""
-    code = "from fractions import Fraction\nfrom reference.limbs import exact_limbs\n"
+    code = "from fractions import Fraction\nfrom reference.arithmetic.limbs import exact_limbs\n"
     code += "answer = [bits(exact_limbs(Fraction(1, 3 << shift), 3)) for shift in range(900, 1080, 7)]"
     for shift, limbs in zip(range(900, 1080, 7), in_the_mode(code), strict=True):
         rest = Fraction(1, 3 << shift)
@@ -161,7 +161,7 @@ def test_where_floats_decide_the_mode_is_refused_in_one_sentence():
 
 LAID_OUT = """
 from reference import *
-from reference.underflow import UnderflowModeError
+from reference.arithmetic.underflow import UnderflowModeError
 answer, number = [], Pendulum("1e-310").certified("state", 0)
 for spec in ("", ">30", "g", ".3%", ".5e", ".400f", ".3g"):
     try:

@@ -8,14 +8,14 @@ import h5py
 import numpy as np
 import pytest
 
-from reference.build import build
-from reference.certify import DisagreementError
-from reference.groups import pendulum as groups
-from reference.plan import Group, Plan
-from reference.store import DatasetError, load
-from reference.store.content import fingerprint
-from reference.store.schema import exact_texts
-from reference.verify import differs, verify
+from reference.certified import DisagreementError
+from reference.dataset import DatasetError, load
+from reference.dataset.build import build
+from reference.dataset.content import fingerprint
+from reference.dataset.plan import Group, Plan
+from reference.dataset.schema import exact_texts
+from reference.dataset.verify import differs, verify
+from reference.problems.pendulum import family as groups
 
 TINY = Plan(
     "core",
@@ -107,7 +107,7 @@ def test_an_input_that_is_no_problem_is_refused(built):
 
 
 def test_a_route_that_disagrees_fails_its_variables(built, monkeypatch):
-    from reference import verify as verifying
+    from reference.dataset import verify as verifying
 
     def disagree(block, route):
         raise DisagreementError(f"{block.row.name} differs by {route}.")

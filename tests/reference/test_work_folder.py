@@ -15,12 +15,12 @@ from arrangements import IN_PLACE, PURE, SPOILT, snapshot, their_folder
 from plans import TINY, leftovers
 
 import reference
-from reference import build as building
-from reference.build import build
-from reference.marked import PlaceError, abandoned, made
-from reference.partial import partial
-from reference.store.checksums import checksums
-from reference.terminal import run
+from reference.command.marked import PlaceError, abandoned, made
+from reference.command.terminal import run
+from reference.dataset import build as building
+from reference.dataset.build import build
+from reference.dataset.checksums import checksums
+from reference.dataset.partial import partial
 
 ROOT = Path(reference.__file__).parents[1]
 PROGRAM = Path(__file__).with_name("arrangements.py")
@@ -274,7 +274,7 @@ def test_a_build_lists_its_blocks_once_and_tells_of_its_progress_before_it_prove
 
 
 def test_a_block_holds_no_numbers_of_its_own_before_it_is_proven():
-    for group in reference.catalogue.plan("full").groups:
+    for group in reference.problems.catalogue.plan("full").groups:
         block = next(block for block in group.blocks() if block.row.over != "once") if group.layout.over else None
         if block is not None:
             assert any((block.values.base is values) for values in group.inputs.values())

@@ -19,8 +19,8 @@ from pathlib import Path
 import numpy as np
 from flint import arb
 
-from reference.limbs import exact_limbs, interval, limbs, of_ball
-from reference.precision import ctx
+from reference.arithmetic.limbs import exact_limbs, interval, limbs, of_ball
+from reference.arithmetic.precision import ctx
 
 ROOT = Path(__file__).parents[2]
 SETS_THE_MODE = {

@@ -6,9 +6,9 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any, ClassVar
 
-from reference.arithmetic import MPMATH, Arithmetic, EllipticArithmetic
-from reference.exact import as_number, exact
-from reference.precision import mp
+from reference.arithmetic.exact import as_number, exact
+from reference.arithmetic.namespaces import MPMATH, Arithmetic, EllipticArithmetic
+from reference.arithmetic.precision import mp
 from reference.problem import ClosedForm, Problem, Row
 from reference.problems.cycloid.equations import point_below_cusp, run
 from reference.problems.cycloid.quantities import CURVE_ROWS, HEIGHT, exponent, positive_number

@@ -14,7 +14,7 @@ from __future__ import annotations
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
-from reference.precision import mp
+from reference.arithmetic.precision import mp
 from reference.problem import ClosedForm
 from reference.problems.cycloid.equations import arc_frequency, point_below_cusp
 from reference.problems.cycloid.neighbours import excess, slowness
@@ -23,7 +23,7 @@ from reference.routes import quadrature
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from reference.arithmetic import CalculusArithmetic
+    from reference.arithmetic.namespaces import CalculusArithmetic
 
 __all__ = ["Brachistochrone", "QuadratureBrachistochrone"]
 

@@ -7,10 +7,10 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any, ClassVar
 
-from reference.arithmetic import MPMATH, Arithmetic, CalculusArithmetic
-from reference.exact import as_number, exact, rational_root
+from reference.arithmetic.exact import as_number, exact, rational_root
+from reference.arithmetic.namespaces import MPMATH, Arithmetic, CalculusArithmetic
+from reference.arithmetic.precision import mp
 from reference.once import cached_property
-from reference.precision import mp
 from reference.problem import APART, Row, SeparableProblem
 from reference.problems.cycloid.brachistochrone import Brachistochrone, QuadratureBrachistochrone
 from reference.problems.cycloid.equations import arc_acceleration, arc_energy
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
     import numpy as np
 
-    from reference.certify import Certified
+    from reference.certified import Certified
 
 __all__ = ["Cycloid"]
 

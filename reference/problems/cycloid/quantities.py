@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from fractions import Fraction
 
-from reference.exact import as_number
+from reference.arithmetic.exact import as_number
 from reference.problem import Quantity, Row
 from reference.row_domains import ANGLE, FRACTION, ONCE, TIME, Reals
 

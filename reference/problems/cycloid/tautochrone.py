@@ -6,11 +6,11 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any, ClassVar
 
-from reference.arithmetic import BALL, MPMATH, Arithmetic, EllipticArithmetic
-from reference.exact import as_number, exact
-from reference.limbs import Interval, interval, ziv
+from reference.arithmetic.exact import as_number, exact
+from reference.arithmetic.limbs import Interval, interval, ziv
+from reference.arithmetic.namespaces import BALL, MPMATH, Arithmetic, EllipticArithmetic
+from reference.arithmetic.precision import mp
 from reference.once import cached_property
-from reference.precision import mp
 from reference.problem import APART, Problem, Row, SeparableProblem
 from reference.problems.cycloid.equations import (
     angular_acceleration,
@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
     from flint import arb
 
-    from reference.certify import Certified
+    from reference.certified import Certified
 
 __all__ = ["CycloidalPendulum", "Swinging", "Tautochrone"]
 

@@ -7,9 +7,9 @@ from fractions import Fraction
 from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
-from reference.arithmetic import MPMATH
+from reference.arithmetic.namespaces import MPMATH
+from reference.arithmetic.precision import mp
 from reference.once import cached_property
-from reference.precision import mp
 from reference.problems.cycloid.equations import arc_acceleration, depth, point_from_bottom
 from reference.problems.cycloid.neighbours import slowness
 from reference.routes.quadrature import to_fraction
@@ -18,7 +18,7 @@ from reference.routes.taylor import Flow
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
-    from reference.arithmetic import Arithmetic
+    from reference.arithmetic.namespaces import Arithmetic
     from reference.problems.cycloid.arc import CycloidArc
     from reference.problems.cycloid.problem import Cycloid
     from reference.problems.cycloid.tautochrone import Swinging

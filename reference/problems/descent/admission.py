@@ -13,16 +13,16 @@ from typing import TYPE_CHECKING
 
 from flint import acb, arb
 
-from reference.balls import BALL
+from reference.arithmetic.balls import BALL
+from reference.arithmetic.precision import ctx
+from reference.arithmetic.real_domains import OutsideDomainError, real
 from reference.names import short
-from reference.precision import ctx
 from reference.problems.descent.analytic import ANALYTIC
 from reference.problems.descent.clock import MAX_DEPTH, MAX_DISCS, MAX_OPERATIONS, ChartWorkError, NoChartError, pieces
 from reference.problems.descent.curves import Curve, FormulaCurve
 from reference.problems.descent.exactly import exactly
 from reference.problems.descent.reality import Unreal, unreal
 from reference.problems.descent.slide import Slide
-from reference.real_domains import OutsideDomainError, real
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

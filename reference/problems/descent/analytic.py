@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from flint import arb
 
-from reference.balls import BALL, ComplexBall
+from reference.arithmetic.balls import BALL, ComplexBall
 
 if TYPE_CHECKING:
     from fractions import Fraction

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 from flint import acb
 
-from reference.dual import with_slope
+from reference.arithmetic.dual import with_slope
 from reference.problems.descent.curves import FormulaCurve
 
 if TYPE_CHECKING:

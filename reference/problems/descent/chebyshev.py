@@ -12,9 +12,9 @@ from dataclasses import dataclass
 from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
-from reference.arithmetic import MPMATH
+from reference.arithmetic.namespaces import MPMATH
+from reference.arithmetic.precision import mp
 from reference.once import cached_property
-from reference.precision import mp
 from reference.problems.descent.equations import slowness
 
 if TYPE_CHECKING:

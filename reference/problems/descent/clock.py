@@ -16,8 +16,8 @@ from typing import TYPE_CHECKING, Any
 
 from flint import acb, arb, arb_poly, arb_series
 
-from reference.balls import BALL, SERIES
-from reference.precision import ctx
+from reference.arithmetic.balls import BALL, SERIES
+from reference.arithmetic.precision import ctx
 from reference.problems.descent.analytic import ANALYTIC
 from reference.problems.descent.centred import centred
 

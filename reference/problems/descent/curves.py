@@ -10,18 +10,18 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
-from reference.arithmetic import MPMATH
-from reference.dual import with_slope
-from reference.expression import Expression
-from reference.limbs import BINARY64_BITS
+from reference.arithmetic.dual import with_slope
+from reference.arithmetic.formula import Expression
+from reference.arithmetic.limbs import BINARY64_BITS
+from reference.arithmetic.namespaces import MPMATH
+from reference.arithmetic.precision import mp
 from reference.names import short, unknown
-from reference.precision import mp
 from reference.problems.descent.equations import acceleration
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from reference.arithmetic import ElementaryArithmetic
+    from reference.arithmetic.namespaces import ElementaryArithmetic
 
 __all__ = ["CYCLOID", "RACE", "Curve", "CycloidByArc", "FormulaCurve", "lagrange", "spelled_curve"]
 

@@ -9,9 +9,9 @@ from __future__ import annotations
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
-from reference.arithmetic import MPMATH
-from reference.balls import BALL
-from reference.precision import ctx, mp
+from reference.arithmetic.balls import BALL
+from reference.arithmetic.namespaces import MPMATH
+from reference.arithmetic.precision import ctx, mp
 from reference.problem import ClosedForm
 from reference.problems.descent.chebyshev import chebyshev_clock
 from reference.problems.descent.clock import arc, clock

@@ -6,14 +6,14 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any, ClassVar
 
-from reference.arithmetic import NUMPY
-from reference.balls import BALL
-from reference.dual import DualArithmetic
-from reference.exact import as_number, exact
-from reference.limbs import ziv
+from reference.arithmetic.balls import BALL
+from reference.arithmetic.dual import DualArithmetic
+from reference.arithmetic.exact import as_number, exact
+from reference.arithmetic.limbs import ziv
+from reference.arithmetic.namespaces import NUMPY
+from reference.arithmetic.precision import ctx
 from reference.names import said, short
 from reference.once import cached_property
-from reference.precision import ctx
 from reference.problem import APART, ClosedForm, Problem, Row
 from reference.problems.descent.admission import admitted
 from reference.problems.descent.curves import Curve, CycloidByArc, lagrange, spelled_curve
@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 
     from flint import arb
 
-    from reference.certify import Certified
+    from reference.certified import Certified
     from reference.problems.descent.slide import Slide
 
 __all__ = ["Descent"]

@@ -14,11 +14,11 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
-from reference.balls import BALL
-from reference.dual import with_slope
-from reference.exact import rational_root
+from reference.arithmetic.balls import BALL
+from reference.arithmetic.dual import with_slope
+from reference.arithmetic.exact import rational_root
+from reference.arithmetic.precision import ctx
 from reference.once import cached_property
-from reference.precision import ctx
 from reference.problems.descent.curves import CycloidByArc, FormulaCurve
 from reference.problems.descent.exactly import SURD, exactly, known
 from reference.problems.descent.surds import UNKNOWN, Surd, surd

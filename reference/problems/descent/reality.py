@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 
 from flint import arb
 
-from reference.balls import BALL
-from reference.real_domains import OutsideDomainError, real
+from reference.arithmetic.balls import BALL
+from reference.arithmetic.real_domains import OutsideDomainError, real
 
 if TYPE_CHECKING:
     from collections.abc import Iterable

@@ -7,8 +7,8 @@ from fractions import Fraction
 from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
-from reference.arithmetic import MPMATH
-from reference.precision import mp
+from reference.arithmetic.namespaces import MPMATH
+from reference.arithmetic.precision import mp
 from reference.problems.descent.chebyshev import chebyshev_clock
 from reference.problems.descent.curves import Curve, lagrange
 from reference.routes.quadrature import to_fraction

@@ -5,14 +5,14 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from reference.exact import exact
+from reference.arithmetic.exact import exact
 from reference.problems.pendulum import series
 from reference.problems.pendulum.expansion import LindstedtMotion, PendulumSeries
 
 if TYPE_CHECKING:
     from fractions import Fraction
 
-    from reference.certify import Certified
+    from reference.certified import Certified
     from reference.problems.pendulum.problem import Pendulum
 
 __all__ = ["LindstedtSolution", "PeriodSeries", "lindstedt", "period_series"]

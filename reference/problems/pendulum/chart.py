@@ -12,9 +12,9 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from flint import arb
 
-from reference.arithmetic import BALL
-from reference.elliptic import sine_polynomial
-from reference.precision import ctx
+from reference.arithmetic.elliptic import sine_polynomial
+from reference.arithmetic.namespaces import BALL
+from reference.arithmetic.precision import ctx
 from reference.problems.pendulum.motions import Rotation, addition
 
 if TYPE_CHECKING:

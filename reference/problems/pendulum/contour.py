@@ -14,7 +14,7 @@ import math
 from functools import lru_cache, partial
 from typing import TYPE_CHECKING, Any
 
-from reference.precision import mp
+from reference.arithmetic.precision import mp
 from reference.problems.pendulum.series import Lindstedt
 from reference.routes.quadrature import to_fraction
 

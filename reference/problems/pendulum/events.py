@@ -5,9 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from reference.arithmetic import BALL
-from reference.exact import as_number, exact
-from reference.limbs import ziv
+from reference.arithmetic.exact import as_number, exact
+from reference.arithmetic.limbs import ziv
+from reference.arithmetic.namespaces import BALL
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
     from flint import arb
 
-    from reference.certify import Certified
+    from reference.certified import Certified
     from reference.problems.pendulum.problem import Pendulum
 
 __all__ = ["DECISION_BITS", "MAX_EVENTS", "Events", "events"]

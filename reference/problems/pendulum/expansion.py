@@ -6,8 +6,8 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any, ClassVar
 
-from reference.arithmetic import MPMATH
-from reference.exact import as_number, exact
+from reference.arithmetic.exact import as_number, exact
+from reference.arithmetic.namespaces import MPMATH
 from reference.once import cached_property
 from reference.problem import ClosedForm, Problem, Row
 from reference.problems.pendulum import contour, series
@@ -18,7 +18,7 @@ from reference.routes import quadrature
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from reference.arithmetic import EllipticArithmetic
+    from reference.arithmetic.namespaces import EllipticArithmetic
     from reference.problem import Solution
 
 __all__ = ["LindstedtMotion", "PendulumSeries"]

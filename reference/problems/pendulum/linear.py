@@ -6,11 +6,11 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any, ClassVar
 
-from reference.arithmetic import MPMATH, Arithmetic, EllipticArithmetic
-from reference.exact import as_number, exact
-from reference.limbs import BINARY64_BITS
+from reference.arithmetic.exact import as_number, exact
+from reference.arithmetic.limbs import BINARY64_BITS
+from reference.arithmetic.namespaces import MPMATH, Arithmetic, EllipticArithmetic
+from reference.arithmetic.precision import mp
 from reference.once import cached_property
-from reference.precision import mp
 from reference.problem import APART, Row, SeparableProblem
 from reference.problems.pendulum.motions import Rest
 from reference.problems.pendulum.quantities import LINEAR_ROWS
@@ -21,7 +21,7 @@ from reference.routes.taylor import Flow
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
-    from reference.certify import Certified
+    from reference.certified import Certified
 
 __all__ = ["LinearPendulum", "linear_acceleration", "linear_energy"]
 

@@ -7,11 +7,11 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any, ClassVar
 
-from reference.arithmetic import BALL, MPMATH, Arithmetic, EllipticArithmetic
-from reference.exact import as_number, exact
-from reference.limbs import BINARY64_BITS, ziv
+from reference.arithmetic.exact import as_number, exact
+from reference.arithmetic.limbs import BINARY64_BITS, ziv
+from reference.arithmetic.namespaces import BALL, MPMATH, Arithmetic, EllipticArithmetic
+from reference.arithmetic.precision import ctx, mp
 from reference.once import cached_property
-from reference.precision import ctx, mp
 from reference.problem import APART, Row, SeparableProblem
 from reference.problems.pendulum.chart import MANY, Chart, chart
 from reference.problems.pendulum.equations import angular_acceleration, energy_above_rest
@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 
     from flint import arb
 
-    from reference.certify import Certified
+    from reference.certified import Certified
     from reference.problems.pendulum.approximations import LindstedtSolution, PeriodSeries
 
 __all__ = ["Pendulum"]

@@ -14,7 +14,7 @@ from __future__ import annotations
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
-from reference.exact import rational_root
+from reference.arithmetic.exact import rational_root
 
 if TYPE_CHECKING:
     from reference.problems.pendulum.problem import Pendulum

@@ -17,10 +17,10 @@ from typing import TYPE_CHECKING, Any
 
 from flint import fmpq, fmpq_poly
 
-from reference.exact import counted
+from reference.arithmetic.exact import counted
 
 if TYPE_CHECKING:
-    from reference.arithmetic import EllipticArithmetic
+    from reference.arithmetic.namespaces import EllipticArithmetic
 
 __all__ = ["Lindstedt", "lindstedt", "period_series", "polynomial"]
 

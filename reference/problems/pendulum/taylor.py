@@ -5,7 +5,7 @@ from __future__ import annotations
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
-from reference.arithmetic import MPMATH
+from reference.arithmetic.namespaces import MPMATH
 from reference.problems.pendulum.equations import condition, energy
 from reference.routes import quadrature
 from reference.routes.taylor import Flow
@@ -13,7 +13,7 @@ from reference.routes.taylor import Flow
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
-    from reference.arithmetic import Arithmetic
+    from reference.arithmetic.namespaces import Arithmetic
     from reference.problems.pendulum.problem import Pendulum
 
 __all__ = ["TAYLOR_RADIANS", "TaylorMotion", "hanging"]

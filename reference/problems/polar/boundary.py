@@ -22,10 +22,10 @@ from typing import TYPE_CHECKING, Any
 
 from flint import arb
 
-from reference.arithmetic import BALL
-from reference.exact import as_number
-from reference.limbs import WorkBoundError, ziv
-from reference.precision import ctx, mp
+from reference.arithmetic.exact import as_number
+from reference.arithmetic.limbs import WorkBoundError, ziv
+from reference.arithmetic.namespaces import BALL
+from reference.arithmetic.precision import ctx, mp
 from reference.row_domains import Domain
 
 if TYPE_CHECKING:

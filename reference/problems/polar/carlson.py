@@ -28,9 +28,9 @@ from typing import TYPE_CHECKING, Any
 
 from flint import acb, arb
 
-from reference.calculus import ball_zero, enclosed_zero
+from reference.arithmetic.calculus import ball_zero, enclosed_zero
+from reference.arithmetic.precision import ctx
 from reference.once import cached_property
-from reference.precision import ctx
 from reference.problems.polar.equations import POINT_MASS
 from reference.problems.polar.extremal import Extremal
 from reference.problems.polar.panels import Schedule

@@ -9,12 +9,12 @@ from fractions import Fraction
 from functools import lru_cache, partial
 from typing import TYPE_CHECKING, Any, ClassVar
 
-from reference.arithmetic import BALL, MPMATH
-from reference.exact import as_number, exact, exact_array, rational_root
-from reference.limbs import BINARY64_BITS
+from reference.arithmetic.exact import as_number, exact, exact_array, rational_root
+from reference.arithmetic.limbs import BINARY64_BITS
+from reference.arithmetic.namespaces import BALL, MPMATH
+from reference.arithmetic.precision import ctx, mp
 from reference.names import said
 from reference.once import cached_property
-from reference.precision import ctx, mp
 from reference.problem import Problem, Row
 from reference.problems.polar.bodies import BODIES
 from reference.problems.polar.boundary import Reached, end_of, exponent_near, lowest_point
@@ -26,8 +26,8 @@ from reference.problems.polar.taylor import TaylorExtremal
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from reference.arithmetic import Arithmetic
-    from reference.certify import Certified
+    from reference.arithmetic.namespaces import Arithmetic
+    from reference.certified import Certified
     from reference.constants import Constant
     from reference.problems.polar.extremal import End, Extremal, Field
     from reference.row_domains import Domain

@@ -20,7 +20,7 @@ from reference.problems.polar.periodic import periodic_ball
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
-    from reference.arithmetic import Arithmetic
+    from reference.arithmetic.namespaces import Arithmetic
 
 __all__ = ["End", "Extremal", "Field"]
 

@@ -12,10 +12,10 @@ from typing import TYPE_CHECKING, Any
 
 from mpmath.calculus.quadrature import GaussLegendre
 
-from reference.arithmetic import MPMATH
-from reference.dual import DualArithmetic
+from reference.arithmetic.dual import DualArithmetic
+from reference.arithmetic.namespaces import MPMATH
+from reference.arithmetic.precision import mp
 from reference.once import cached_property
-from reference.precision import mp
 from reference.problems.polar.extremal import Extremal
 from reference.problems.polar.optimality import chord_geometry, neighbour_rates
 from reference.problems.polar.panels import Panels, Schedule, panels_of

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from reference.arithmetic import NUMPY
+from reference.arithmetic.namespaces import NUMPY
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING, Any
 
 from flint import acb, arb
 
-from reference.arithmetic import BALL, ComplexBall
-from reference.precision import ctx, mp
+from reference.arithmetic.namespaces import BALL, ComplexBall
+from reference.arithmetic.precision import ctx, mp
 
 if TYPE_CHECKING:
     from collections.abc import Callable

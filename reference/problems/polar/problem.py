@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, ClassVar
 
-from reference.arithmetic import BALL
+from reference.arithmetic.namespaces import BALL
 from reference.problem import APART
 from reference.problems.polar.bodies import body_of
 from reference.problems.polar.carlson import Carlson

@@ -22,7 +22,7 @@ from __future__ import annotations
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from reference.exact import counted
+from reference.arithmetic.exact import counted
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

@@ -8,9 +8,9 @@ from fractions import Fraction
 from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
-from reference.arithmetic import MPMATH
+from reference.arithmetic.namespaces import MPMATH
+from reference.arithmetic.precision import mp
 from reference.once import cached_property
-from reference.precision import mp
 from reference.problems.polar.optimality import chord_geometry
 from reference.routes.quadrature import to_fraction
 from reference.routes.taylor import Flow
@@ -18,7 +18,7 @@ from reference.routes.taylor import Flow
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
-    from reference.arithmetic import Arithmetic
+    from reference.arithmetic.namespaces import Arithmetic
     from reference.problems.polar.extremal import Field
     from reference.problems.polar.numerical import Numerical
 

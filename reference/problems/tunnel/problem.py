@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, ClassVar
 
-from reference.exact import exact, rational_root
+from reference.arithmetic.exact import exact, rational_root
 from reference.problem import APART
 from reference.problems.polar.bodies import body_of
 from reference.problems.polar.central import CentralBrachistochrone

@@ -1,0 +1,155 @@
+"""How far a step is from keeping areas, and from running backwards."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from compare.claims.courses import Steps
+from compare.claims.engine import Traced, trial_states
+from compare.claims.field import MisuseError
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from compare.claims.courses import Marcher
+
+__all__ = ["Defect", "Evidence", "reversibility", "symplecticity"]
+
+ROUNDING = 1e-11
+"""A defect up to this is rounding."""
+FACTORS = (0.5, 1, 2)
+"""Steps with which a defect is measured, over h."""
+TOLERATED, GROWTH = 1e-5, 4096.0
+"""A defect up to the first that grows over FACTORS by less than the second may be what the tolerance of an inner
+iteration leaves: that varies fifty times with the step, and fifty times with whether the number of iterations changes
+along the stencil; a defect of the method that is so small is of a high power of the step, and mostly grows by more."""
+STATES = 4
+"""States at which a defect is measured."""
+STEPS_BACK = 32
+STEPS_OF_A_GRID = 12
+"""Steps over which a whole integrator's map is differentiated: its first ones may be another method's."""
+STENCIL = (5 / 6, -5 / 21, 5 / 84, -5 / 504, 1 / 1260)
+"""f'(x) = sum_k c_k (f(x + k d) - f(x - k d))/d, k = 1 ... 5, to order 10 (B. Fornberg, Math. Comp. 51, 1988, 699)."""
+SPACING = 1 / 50
+"""d over the size of the component: then rounding and truncation are both near 1e-14."""
+
+
+@dataclass(frozen=True)
+class Defect:
+    """A defect, the step at which it was measured, and whether it is none.
+
+    Attributes:
+        size: the largest over some states about the motion.
+        h: the step, s.
+        none: whether it is rounding, or the tolerance of an inner iteration.
+        tolerance: whether it is the latter.
+        undecided: whether it has the size of a tolerance, and nothing says that it is one or that it is a fault.
+    """
+
+    size: float
+    h: float
+    none: bool
+    tolerance: bool = False
+    undecided: bool = False
+
+
+@dataclass(frozen=True)
+class Evidence:
+    """What else is known of an integrator that may iterate inside.
+
+    Attributes:
+        possible: whether it may: not where it is compiled, or chooses its own steps.
+        iterates: whether the calls of f that it makes differ from state to state or from step to step.
+        bounded: whether the energy stays bounded.
+    """
+
+    possible: bool
+    iterates: bool
+    bounded: bool
+
+
+def _judged(sizes: Sequence[float], signed: np.ndarray, h: float, evidence: Evidence) -> Defect:
+    """The verdict of the defects at FACTORS of h; ``signed`` tells one that always goes the same way: no tolerance."""
+    if sizes[-1] <= ROUNDING:
+        return Defect(sizes[1], h, none=True)
+    both_ways = bool(np.min(signed) < 0 < np.max(signed))
+    steady = max(sizes) <= GROWTH * sizes[0]
+    if max(sizes) <= TOLERATED and evidence.possible and evidence.bounded and both_ways:
+        if steady != evidence.iterates:
+            return Defect(sizes[1], h, none=False, undecided=True)
+        if steady:
+            return Defect(sizes[1], h, none=True, tolerance=True)
+    return Defect(sizes[1], h, none=False) if sizes[1] > ROUNDING else Defect(sizes[-1], FACTORS[-1] * h, none=False)
+
+
+def _trials(marcher: Marcher, h: float) -> tuple[np.ndarray, np.ndarray]:
+    """The same states with each step: [state, lanes] and [lanes]."""
+    states = trial_states(marcher.scene, h)[0][:, :STATES]
+    return np.tile(states, len(FACTORS)), np.repeat([factor * h for factor in FACTORS], STATES)
+
+
+def _hold_finite(defects: np.ndarray, h: np.ndarray) -> None:
+    """Refuse an integrator that gives no number with some step.
+
+    Raises:
+        MisuseError: it does.
+    """
+    lost = ~np.isfinite(defects)
+    if np.any(lost):
+        raise MisuseError(f"a step of h = {np.min(h[lost]):.4g} gives no finite state; finite numbers are accepted.")
+
+
+def _largest(defects: np.ndarray) -> list[float]:
+    """The largest defect with each step."""
+    return [float(np.max(part)) for part in np.split(defects, len(FACTORS), axis=-1)]
+
+
+def symplecticity(marcher: Marcher, h: float, evidence: Evidence) -> Defect:
+    """|det d(step)/dy - 1|, exact but for rounding where the step is compiled, else by differences of order ten.
+
+    Of a whole integrator it is that of the map over several steps.
+    """
+    y, sizes = _trials(marcher, h)
+    if isinstance(marcher, Steps) and isinstance(marcher.engine, Traced):
+        jacobians = marcher.engine.jacobian(y, sizes)
+    else:
+        jacobians = _differences(marcher, y, sizes)
+    with np.errstate(over="ignore", invalid="ignore"):
+        defects = np.linalg.det(np.moveaxis(jacobians, -1, 0)) - 1
+    _hold_finite(defects, sizes)
+    return _judged(_largest(np.abs(defects)), defects, h, evidence)
+
+
+def _differences(marcher: Marcher, y: np.ndarray, h: np.ndarray) -> np.ndarray:
+    """d(step)/dy as [state, state, lanes] by the stencil."""
+    d, lanes = y.shape
+    spacings = SPACING * np.max(np.abs(y), axis=1)
+    shifts = [(i, k) for i in range(d) for k in range(-len(STENCIL), len(STENCIL) + 1) if k]
+    moved = [y + (k * spacings[i] * np.eye(d)[i])[:, None] for i, k in shifts]
+    after = _after(STEPS_OF_A_GRID if marcher.whole else 1, marcher, np.hstack(moved), np.tile(h, len(shifts)))
+    jacobians = np.zeros((d, d, lanes))
+    for place, (i, k) in enumerate(shifts):
+        weight = np.sign(k) * STENCIL[abs(k) - 1] / spacings[i]
+        jacobians[:, i] += weight * after[:, place * lanes : (place + 1) * lanes]
+    return jacobians
+
+
+def _after(steps: int, marcher: Marcher, y: np.ndarray, h: np.ndarray) -> np.ndarray:
+    return np.stack([states[0] for states in marcher.states(y, h, [[steps]] * len(h))], axis=1)
+
+
+def reversibility(marcher: Marcher, h: float, evidence: Evidence) -> Defect:
+    """Steps forward, the momenta flipped, as many back: the distance from the start, over the components' sizes."""
+    start, sizes = _trials(marcher, h)
+    flip = np.ones((len(start), 1))
+    flip[marcher.scene.problem.positions :] = -1
+    y = start
+    for _ in range(2):
+        y = flip * np.stack([states[-1] for states in marcher.states(y, sizes, [[STEPS_BACK]] * len(sizes))], axis=1)
+    with np.errstate(all="ignore"):
+        gained = marcher.scene.energy(y.T) - marcher.scene.energy(start.T)
+    away = np.abs(y - start) / np.max(np.abs(start), axis=1)[:, None]
+    return _judged(_largest(away), gained, h, evidence)

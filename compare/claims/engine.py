@@ -1,0 +1,195 @@
+"""One step over lanes: traced and compiled where it can be, else on arrays, else lane by lane.
+
+A compiled step, or one on arrays, is trusted only where it agrees with plain evaluation on one state at a time: an
+``if`` on a symbol is silently true.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, ClassVar
+
+import numpy as np
+
+from compare.claims.field import Exhausted, MisuseError
+from compare.march.stepmap import slopes_of
+from reference.arithmetic.compiler import hy
+
+if TYPE_CHECKING:
+    from compare.claims.candidate import Candidate
+    from compare.claims.frames import Scene
+
+__all__ = ["Arrays", "Engine", "Lanes", "Traced", "chosen", "repeatable", "trial_states"]
+
+TRACED_CALLS = 64
+"""Calls of f in one step up to which its expressions are worth compiling."""
+AGREEMENT = 1e-12
+TRIALS = 8
+
+
+class Lanes:
+    """Plain evaluation: one state, one step size, one time after another."""
+
+    name: ClassVar[str] = "lane by lane"
+    cost: ClassVar[float] = 1.0
+    """Calls of f for one step of all lanes, counted in steps of one lane."""
+
+    def __init__(self, candidate: Candidate, scene: Scene) -> None:
+        self.candidate, self.scene = candidate, scene
+        self.field = candidate.field(scene)
+
+    def advance(self, y: np.ndarray, h: np.ndarray, t: np.ndarray) -> np.ndarray:
+        """The states [state, lanes] a step of h later."""
+        columns = [self.one(y[:, i], float(h[i]), float(t[i])) for i in range(y.shape[1])]
+        return np.stack(columns, axis=1)
+
+    def one(self, y: np.ndarray, h: float, t: float) -> np.ndarray:
+        """One state a step later.
+
+        Raises:
+            MisuseError: the step gave no state.
+        """
+        self.field.calls = 0
+        found = self.candidate.step(self.field, y, h, t)
+        array = self.candidate.numbers(found, self.candidate.name)
+        if array.shape != y.shape:
+            raise MisuseError(
+                f"{self.candidate.name} returned an array of shape {array.shape} for a state of shape {y.shape}; "
+                "the same shape is accepted."
+            )
+        return array
+
+
+class Arrays:
+    """The step on arrays [state, lanes], with arrays of step sizes and of times."""
+
+    name: ClassVar[str] = "on arrays"
+
+    def __init__(self, candidate: Candidate, scene: Scene) -> None:
+        self.candidate, self.field = candidate, candidate.field(scene)
+
+    def advance(self, y: np.ndarray, h: np.ndarray, t: np.ndarray) -> np.ndarray:
+        """The states [state, lanes] a step of h later.
+
+        Raises:
+            MisuseError: the step does not work on arrays.
+        """
+        self.field.calls = 0
+        found = self.candidate.numbers(self.candidate.step(self.field, y, h, t), self.candidate.name)
+        if found.shape != y.shape:
+            raise MisuseError(f"{self.candidate.name} does not keep the shape of lanes.")
+        return found
+
+
+class Traced:
+    """The step on symbols, compiled; its derivative is exact."""
+
+    name: ClassVar[str] = "compiled"
+
+    def __init__(self, candidate: Candidate, scene: Scene) -> None:
+        d = scene.dimension
+        self._variables = [hy.expression(f"y{i}") for i in range(d)]
+        h, t = hy.expression("h"), hy.expression("t")
+        field = candidate.field(scene)
+        field.limit = TRACED_CALLS
+        found = candidate.step(field, np.array(self._variables, dtype=object), h, t)
+        array = np.array(found, dtype=object)
+        if array.shape != (d,):
+            raise MisuseError(f"{candidate.name} does not keep the shape of symbols.")
+        self._step = [hy.expression(part) if isinstance(part, (int, float)) else part for part in array]
+        if not all(isinstance(part, hy.expression) for part in self._step):
+            raise MisuseError(f"{candidate.name} does not return symbols for symbols.")
+        self._all = [*self._variables, h, t]
+        self._function = hy.cfunc(self._step, vars=self._all)
+
+    def advance(self, y: np.ndarray, h: np.ndarray, t: np.ndarray) -> np.ndarray:
+        """The states [state, lanes] a step of h later."""
+        return _called(self._function, y, h, t)
+
+    def jacobian(self, y: np.ndarray, h: np.ndarray) -> np.ndarray:
+        """d(step)/dy, exact but for rounding: [state, state, lanes], at time zero."""
+        entries = slopes_of(self._step, self._variables)
+        function = hy.cfunc(list(entries.ravel()), vars=self._all)
+        return _called(function, y, h, np.zeros(len(h))).reshape(*entries.shape, -1)
+
+
+Engine = Lanes | Arrays | Traced
+
+
+def _called(function: Any, y: np.ndarray, h: np.ndarray, t: np.ndarray) -> np.ndarray:
+    found: np.ndarray = function(np.ascontiguousarray(np.vstack([y, h, t])))
+    return found
+
+
+def trial_states(scene: Scene, h: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Some states about the motion [state, lanes], step sizes up to ``h``, and times."""
+    random = np.random.default_rng(20260101)
+    times = random.uniform(0, 10, TRIALS)
+    states = scene.problem.state(times).T * random.uniform(0.7, 1.1, (scene.dimension, TRIALS))
+    return states, h * random.uniform(0.2, 1.0, TRIALS), times
+
+
+def chosen(candidate: Candidate, scene: Scene, h: float) -> tuple[Engine, int, bool]:
+    """The fastest engine that agrees with plain evaluation, the calls of f for a step, and whether f is given the time.
+
+    Raises:
+        MisuseError: the step fails, gives no finite state, or gives two answers to one question.
+    """
+    y, sizes, times = trial_states(scene, h)
+    plain = Lanes(candidate, scene)
+    answers, calls = [], 0
+    for i in range(TRIALS):
+        answers.append(_repeatable(plain, y[:, i], float(sizes[i]), float(times[i])))
+        calls = max(calls, plain.field.calls)
+    again = [plain.one(y[:, i], float(sizes[i]), float(times[i])) for i in reversed(range(TRIALS))]
+    for before, after in zip(answers, reversed(again), strict=True):
+        repeatable(candidate, before, after)
+    expected = np.stack(answers, axis=1)
+    for kind in (Traced, Arrays):
+        engine = _trusted(kind, candidate, scene, (y, sizes, times), expected)
+        if engine is not None:
+            return engine, calls, plain.field.timed
+    return plain, calls, plain.field.timed
+
+
+def _repeatable(plain: Lanes, y: np.ndarray, h: float, t: float) -> np.ndarray:
+    """One step, twice."""
+    found = plain.one(y, h, t)
+    if not np.all(np.isfinite(found)):
+        state = ", ".join(f"{value:.4g}" for value in y)
+        raise MisuseError(
+            f"{plain.candidate.name} returned {found.tolist()} for y = ({state}) and h = {h:.4g}; "
+            "finite numbers are accepted."
+        )
+    repeatable(plain.candidate, found, plain.one(y, h, t))
+    return found
+
+
+def repeatable(candidate: Candidate, before: np.ndarray, after: np.ndarray) -> None:
+    """Hold two answers to one question against each other.
+
+    Raises:
+        MisuseError: they differ.
+    """
+    if not np.array_equal(before, after):
+        first, second = (answer.ravel()[-2:].tolist() for answer in (before, after))
+        raise MisuseError(
+            f"{candidate.name} gave {first} and then {second} for the same state and step: it is not deterministic, or "
+            "keeps something from call to call; a function of its arguments alone is accepted."
+        )
+
+
+def _trusted(
+    kind: type[Traced | Arrays],
+    candidate: Candidate,
+    scene: Scene,
+    trial: tuple[np.ndarray, np.ndarray, np.ndarray],
+    expected: np.ndarray,
+) -> Traced | Arrays | None:
+    """An engine, if it can be built and gives what plain evaluation gave."""
+    try:
+        engine = kind(candidate, scene)
+        found = engine.advance(*trial)
+    except (MisuseError, Exhausted):
+        return None
+    gap = np.abs(found - expected)
+    return engine if np.all(gap <= AGREEMENT * (1 + np.abs(expected))) else None

@@ -1,0 +1,139 @@
+"""Whether a step goes where the slope points, forwards and backwards, and which known slip explains it if it does not.
+
+Of a method of order one or more, (step(y, h) - y)/h tends to f(y) as h tends to zero from either side.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import TYPE_CHECKING, Literal
+
+import numpy as np
+
+from compare.claims.consistency import uses
+from compare.claims.engine import Lanes, trial_states
+from compare.claims.field import Exhausted, MisuseError
+from reference.arithmetic.namespaces import NUMPY
+
+if TYPE_CHECKING:
+    from compare.claims.candidate import Candidate
+    from compare.claims.frames import Scene
+
+__all__ = ["UNTRIED", "Heading", "heading"]
+
+SHORT, SHORTER = 8, 64
+"""Steps, as parts of h, with which the slope of a step is compared with f."""
+NEAR, FALLING = 1e-3, 0.5
+"""It is f if it is so near to it, or if its distance with the shorter step is so much less than with the other."""
+MATCH = 0.05
+"""Relative distance up to which a wrong slope is said to be a known one."""
+WORSE, MATTERS = 1e3, 1e-9
+"""A step back is wrong if its error is so many times that of a step forward, and beyond the second."""
+
+Backward = Literal["right", "wrong", "refused", "untried"]
+
+
+@dataclass(frozen=True)
+class Heading:
+    """Where a step goes.
+
+    Attributes:
+        consistent: whether a step forward goes along f.
+        backward: whether a step with h < 0 goes back along f as well: "refused" where it raises or gives no finite
+            state, "untried" where there is no such step.
+        uses: whether what f gives makes a difference to it.
+        cause: what explains a step that does not go along f, where that is known.
+    """
+
+    consistent: bool
+    backward: Backward
+    uses: bool = True
+    cause: str | None = None
+
+
+UNTRIED = Heading(consistent=True, backward="untried")
+"""Of a whole integrator."""
+
+
+def heading(candidate: Candidate, scene: Scene, h: float) -> Heading:
+    """Try short steps from some states of the motion itself, and longer ones back and forth.
+
+    Raises:
+        MisuseError: a step forward fails.
+    """
+    times = trial_states(scene, h)[2]
+    y = -scene.errors([Fraction(float(t)) for t in times], np.zeros((len(times), scene.dimension)))
+    trial = _Trial(candidate, scene, times, y)
+    slopes = trial.slope(h / SHORTER)
+    used = uses(candidate, scene, h)
+    consistent = trial.along(slopes, trial.slope(h / SHORT))
+    cause = None if consistent else _cause(slopes, trial.rates, scene.problem.positions)
+    try:
+        back = trial.along(trial.slope(-h / SHORTER), trial.slope(-h / SHORT)) and trial.as_good_back(h / 2)
+    except (MisuseError, Exhausted):
+        return Heading(consistent, "refused", used, cause)
+    return Heading(consistent, "right" if back else "wrong", used, cause)
+
+
+class _Trial:
+    """Single steps from points of the exact motion [times, state]."""
+
+    def __init__(self, candidate: Candidate, scene: Scene, times: np.ndarray, y: np.ndarray) -> None:
+        self.plain = Lanes(candidate, scene)
+        self.scene, self.times, self.y = scene, times, y
+        self.rates = np.array([scene.rates(NUMPY, t, tuple(one)) for t, one in zip(times, y, strict=True)])
+        self.size = np.max(np.abs(self.rates), axis=0)
+
+    def after(self, h: float) -> np.ndarray:
+        """The states a step later.
+
+        Raises:
+            MisuseError: one is not finite.
+        """
+        found = np.array([self.plain.one(one, h, float(t)) for t, one in zip(self.times, self.y, strict=True)])
+        if not np.all(np.isfinite(found)):
+            raise MisuseError(f"a step of h = {h:.4g} gives no finite state; finite numbers are accepted.")
+        return found
+
+    def slope(self, h: float) -> np.ndarray:
+        """(step(y, h) - y)/h."""
+        slopes: np.ndarray = (self.after(h) - self.y) / h
+        return slopes
+
+    def along(self, shorter: np.ndarray, short: np.ndarray) -> bool:
+        """Whether slopes with two steps tend to f."""
+        near, far = (float(np.max(np.abs(slopes - self.rates) / self.size)) for slopes in (shorter, short))
+        return near <= NEAR or near <= FALLING * far
+
+    def as_good_back(self, h: float) -> bool:
+        """Whether a step back errs no more than one forward, within a large factor."""
+        forth, back = (self._error(signed) for signed in (h, -h))
+        return back <= max(WORSE * forth, MATTERS)
+
+    def _error(self, h: float) -> float:
+        times = [Fraction(float(t)) + Fraction(h) for t in self.times]
+        return float(np.max(np.abs(self.scene.errors(times, self.after(h))) / np.max(np.abs(self.y), axis=0)))
+
+
+def _cause(slopes: np.ndarray, rates: np.ndarray, positions: int) -> str | None:
+    """What a slope is in place of f, where it is known."""
+    first, second = slice(positions), slice(positions, None)
+    return CAUSES.get((_multiple(slopes[:, first], rates[:, first]), _multiple(slopes[:, second], rates[:, second])))
+
+
+def _multiple(slopes: np.ndarray, rates: np.ndarray) -> int | None:
+    """The one of 1, 0, -1 whose product with the rates the slopes are, or None."""
+    size = np.max(np.abs(rates))
+    return next((sign for sign in (1, 0, -1) if np.max(np.abs(slopes - sign * rates)) <= MATCH * size), None)
+
+
+CAUSES: dict[tuple[int | None, int | None], str] = {
+    (1, -1): "the momenta go against the force, as with the gradient of the potential in its place: "
+    "force = -gradient is what a step is given",
+    (0, 0): "it does not move",
+    (-1, -1): "it goes backwards, as with the sign of h or of f changed",
+    (0, 1): "the positions do not move",
+    (1, 0): "the momenta do not move",
+}
+"""By the multiples of the slopes of positions and of momenta that a step goes along."""

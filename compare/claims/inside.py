@@ -1,0 +1,124 @@
+"""The inside of a contained check: the process in which a user's module is imported and its step is run."""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+import sys
+import threading
+import time
+from contextlib import suppress
+from pathlib import Path
+from typing import Any
+
+__all__ = ["CLOSED", "serve"]
+
+CLOSED = 117
+"""The exit code where the answer cannot be sent."""
+
+EXIT_CODES = {True: 0, False: 1, None: 3}
+"""Of a check whose claims hold, of which one fails, or of which one is not established."""
+FOLLOWING = 0.5
+"""Seconds between looks whether the process that asked is still there."""
+
+
+def serve(handle: int, told: str) -> None:
+    """Answer a request through the pipe with this number, and end; a copy that the step has forked says nothing."""
+    line = _Line(handle)
+    threading.Thread(target=_follow, args=(os.getppid(), line), daemon=True).start()
+    _first_to_go_where_memory_ends()
+    try:
+        line.say(_answer(line, json.loads(told)))
+        code = 0
+    except ClosedError:
+        code = CLOSED
+    with suppress(OSError, ValueError):
+        sys.stdout.flush()
+    os._exit(code)  # whatever the step has left to be done at the end
+
+
+class ClosedError(Exception):
+    """The step closed the pipe."""
+
+
+class _Line:
+    """The pipe, as long as it is this process's own."""
+
+    def __init__(self, handle: int) -> None:
+        self._handle, self._process, self._pipe = handle, os.getpid(), _identity(handle)
+
+    @property
+    def closed(self) -> bool:
+        """Whether the step closed the pipe."""
+        return _identity(self._handle) != self._pipe
+
+    def say(self, message: dict[str, Any]) -> None:
+        """Send a message.
+
+        Raises:
+            ClosedError: the pipe is closed, or its number is another file's.
+        """
+        if os.getpid() != self._process:
+            os._exit(0)
+        if self.closed:
+            raise ClosedError
+        left = json.dumps(message).encode() + b"\n"
+        while left:
+            left = left[os.write(self._handle, left) :]
+
+
+def _identity(handle: int) -> tuple[int, int] | None:
+    """Which file has this number; None if none has."""
+    try:
+        status = os.fstat(handle)
+    except OSError:
+        return None
+    return status.st_dev, status.st_ino
+
+
+def _answer(line: _Line, request: dict[str, Any]) -> dict[str, Any]:
+    """The check as text with its exit code, or why it is refused."""
+    from compare.claims.loading import loaded
+    from reference.command.terminal import sentence
+
+    options = request["options"]
+    line.say({"stage": "begun"})
+    try:
+        step = loaded(options["step"])
+        line.say({"stage": "loaded"})
+
+        from compare.claims import show
+        from compare.claims.checking import check
+
+        line.say({"stage": "ready"})
+        found = check(**{**options, "step": step})
+    except (OSError, ValueError, ImportError, ArithmeticError, RuntimeError) as error:
+        return {"refused": sentence(error)}
+    except BaseException as error:
+        if isinstance(error, Exception):
+            raise  # a fault of the judge's own, of which the traceback says most
+        name = options["step"].rpartition(":")[2]
+        return {"left": f"{name} raised {type(error).__name__}"}
+    text = {"text": show.text, "json": show.json_text}[request["form"]](found)
+    return {"text": text, "code": EXIT_CODES[found.claims_hold]}
+
+
+def _follow(parent: int, line: _Line) -> None:
+    """End with the process that asked, however that ends, and where the answer cannot be sent.
+
+    A compiler whose files the step closed with the others may wait for ever.
+    """
+    while os.getppid() == parent:
+        if line.closed:
+            os._exit(CLOSED)
+        time.sleep(FOLLOWING)
+    os.killpg(0, signal.SIGKILL)
+
+
+def _first_to_go_where_memory_ends() -> None:
+    """Where memory runs out it is this process that the kernel ends, and none that did not ask for it."""
+    score = Path("/proc/self/oom_score_adj")
+    if score.exists():
+        with suppress(PermissionError):
+            score.write_text("1000", encoding="ascii")

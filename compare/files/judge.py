@@ -1,0 +1,274 @@
+"""Rows of written numbers against the proven state at their exact times."""
+
+from __future__ import annotations
+
+import math
+import sys
+from fractions import Fraction
+from functools import partial
+from typing import TYPE_CHECKING, Any
+
+from flint import arb
+
+from compare.files.record import Point, Running
+from compare.files.slips import exchanged, refuse_other_times, refuse_other_units
+from compare.files.turns import Turns
+from reference.arithmetic.namespaces import BALL
+from reference.arithmetic.precision import ctx
+from reference.arithmetic.underflow import require_gradual
+from reference.names import short
+from reference.orbits import apart
+from reference.problem import Problem
+from reference.problems.orbits import orbits, remark
+from reference.routes import enclosure
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Sequence
+
+    from compare.files.chunk import Row
+    from compare.files.record import Score
+    from compare.files.written import Written
+    from reference.orbits import Orbits
+
+__all__ = ["CHUNK", "Judge"]
+
+SPARE_BITS = 64
+"""Bits of the truth beyond the last that the input can hold, so that its errors are known to a good many digits."""
+CHUNK = 1024
+"""Rows that are judged together: enough to share what they can share, few enough for any memory."""
+
+
+class Judge:
+    """A problem's truth, held against rows in the order of their times.
+
+    Attributes:
+        time: what the state is a function of: "t", or the name of another time, such as "tau".
+        held: the digits that the input can hold: the most that any of its numbers so far has.
+        rows: how many rows are judged, and ``last`` the time of the last of them.
+        turns: counts the angles that are wrong by whole turns, of all rows.
+
+    Raises:
+        TypeError: ``problem`` is no problem with a state in time.
+    """
+
+    def __init__(self, problem: Problem) -> None:
+        if not isinstance(problem, Problem) or not _time(problem):
+            raise TypeError(
+                f"problem is {problem!r}; a problem with a state in time, such as Pendulum(1.0), is accepted."
+            )
+        require_gradual("a score")
+        self.problem = problem
+        self.time = _time(problem)
+        self.held = 0.0
+        self._units = tuple(quantity.units for quantity in problem.row("state").quantities)
+        self.turns = Turns(problem.state_names, self._units)
+        self.rows = 0
+        self.last: Written | None = None
+        self._slip = ""
+
+    def running(self, keep: int | None) -> Running:
+        """A summary of no rows yet, which keeps ``keep`` of them at most; all if it is None."""
+        start = [_log_size(BALL.number(value)) for value in self.problem.start]
+        return Running(self.problem.state_names, keep, start)
+
+    def expect(self, digits: Iterable[float]) -> None:
+        """Learn the digits of numbers to come."""
+        self.held = max(self.held, max(digits, default=0.0))
+
+    def points(self, rows: Sequence[Row]) -> list[Point]:
+        """Judge the next rows; their digits are not yet capped at what the input can hold, nor their turns counted.
+
+        Raises:
+            ValueError: the times do not increase, an angle is in degrees, or an error is beyond the range of doubles.
+        """
+        self._refuse_disorder(rows)
+        self.expect(number.digits for row in rows for number in row.state)
+        found = self.some(range(len(rows)), rows)
+        self.pass_over(len(rows), rows[-1].t)
+        return found
+
+    def some(self, places: Sequence[int], rows: Sequence[Row]) -> list[Point]:
+        """Judge rows at these places, counted from 0, among those that come next, in which none is passed yet.
+
+        Raises:
+            ValueError: an angle is in degrees, or an error is beyond the range of doubles.
+        """
+        bits = math.ceil(self.held * math.log2(10)) + SPARE_BITS
+        instants = [row.t.value for row in rows]
+        truths = enclosure.balls(self.problem, "state", instants, bits)
+        if not self.rows and not places[0]:
+            refuse_other_units(self.problem.state_names, self._units, rows, truths)
+            if self.time == "t":
+                refuse_other_times(
+                    self.time, self._units, rows, truths, partial(enclosure.balls, self.problem, "state", bits=bits)
+                )
+            self._slip = exchanged(self.problem.state_names, rows, truths)
+        with ctx.workprec(bits + SPARE_BITS + self.problem.working_bits(instants) + _whole_bits(rows)):
+            bench = _Bench(self.problem, bits)
+            return [
+                bench.point(self.rows + place + 1, row, truth)
+                for place, row, truth in zip(places, rows, truths, strict=True)
+            ]
+
+    def pass_over(self, count: int, last: Written) -> None:
+        """Go on to the rows after the next ``count``, of which the last has this time."""
+        self.rows += count
+        self.last = last
+
+    @property
+    def units(self) -> tuple[str, ...]:
+        """The units of the time and of the state's numbers."""
+        return ("s" if self.time == "t" else "1", *self._units)
+
+    def score(self, running: Running, times: str, notes: Sequence[str] = ()) -> Score:
+        """The summary of all rows so far, which ``running`` took in; ``times`` says how times were read, and ``notes``
+        what else is to be known of the file.
+        """
+        return running.score(repr(self.problem), self._units, self.held, times, (*notes, *self._notes(running)))
+
+    def _notes(self, running: Running) -> tuple[str, ...]:
+        """What could not be judged, or is to be known of it, in sentences."""
+        lacking, lost = remark(self.problem), running.lost
+        notes = [f"{constant}." for constant in self.problem.constants]
+        notes += [lacking] if lacking else []
+        if lost is not None and not (lacking and self._phaseless):
+            notes.append(
+                f"Row {lost.number}, {self.time} = {lost.t}, is the first whose state is on no orbit of the exact "
+                "motion's kind: it has no phase."
+            )
+        return *notes, *self.turns.notes(), *([self._slip] if self._slip else [])
+
+    @property
+    def _phaseless(self) -> bool:
+        """Whether the exact motion has no phase."""
+        found = orbits(self.problem)
+        return found is None or found.truth(Fraction(0)).phase is None
+
+    def _refuse_disorder(self, rows: Sequence[Row]) -> None:
+        last = self.last
+        for t, _, place in rows:
+            if last is not None and t.value <= last.value:
+                fault = "is repeated" if t.value == last.value else f"comes after {self.time} = {last.text}"
+                raise ValueError(f"{self.time} = {t.text} in {place} {fault}; increasing times are accepted.")
+            last = t
+
+
+def _time(problem: Problem) -> str:
+    """What the problem's state is a function of; "" where it has no state."""
+    over = next((row.over for row in problem.rows if row.name == "state"), "")
+    return {"time": "t", "once": "", "index": ""}.get(over, over)
+
+
+def _whole_bits(rows: Sequence[Row]) -> int:
+    """Bits of the largest number of the states before its point: an angle loses them where its turns are taken off."""
+    values = [number.value for row in rows for number in row.state]
+    return max(0, *(value.numerator.bit_length() - value.denominator.bit_length() + 1 for value in values))
+
+
+class _Bench:
+    """What the rows of a chunk share, at the working precision in force: the truth is good to ``bits`` bits."""
+
+    def __init__(self, problem: Problem, bits: int) -> None:
+        self._problem = problem
+        self._parameters = {name: BALL.number(value) for name, value in problem.parameters.items()}
+        self._orbits: Orbits | None = orbits(problem)
+        self._resolution = arb(2) ** -bits
+        self._start: arb | None = self._invariant([BALL.number(value) for value in problem.start])
+
+    def point(self, number: int, row: Row, truth: Sequence[arb]) -> Point:
+        """Judge one row.
+
+        Raises:
+            ValueError: an error is beyond the range of doubles.
+        """
+        t, state, place = row
+        y = [BALL.number(given.value) for given in state]
+        errors = [given - true for given, true in zip(y, truth, strict=True)]
+        decimals = [self._digits(*pair) for pair in zip(errors, truth, strict=True)]
+        relative = tuple(map(_correct, state, decimals, errors))
+        phase, amplitude = self._orbital(t.value, y)
+        energy = self._energy_error(y)
+        floats = tuple(float(error) for error in errors)
+        if any(map(math.isinf, (*floats, amplitude, energy))):
+            shown = ", ".join(short(given.text) for given in state)
+            raise ValueError(
+                f"the state in {place} is {shown}: its error or its energy is beyond {sys.float_info.max:.1e}, the "
+                "range of doubles; smaller numbers are accepted."
+            )
+        return Point(
+            number=number,
+            t=t.text,
+            values=tuple(given.text for given in state),
+            digits=min((digits for digits in relative if not math.isnan(digits)), default=math.inf),
+            error=max(abs(error) for error in floats),
+            errors=floats,
+            first_wrong=tuple(map(_first_wrong, state, decimals, errors)),
+            phase_error=phase,
+            amplitude_error=amplitude,
+            energy_error=energy,
+            scaled_digits=math.nan,
+            relative=relative,
+            sizes=tuple(
+                -math.inf if math.isinf(digits) else _log10(abs(error))
+                for digits, error in zip(decimals, errors, strict=True)
+            ),
+            truths=tuple(map(_log_size, truth)),
+        )
+
+    def _digits(self, error: arb, truth: arb) -> float:
+        """-log10 |error/truth|, not below 0: infinite where that is met as far as it is known; NaN where it is 0."""
+        size = abs(error)
+        if size <= self._resolution * abs(truth) or error.is_zero():
+            return math.inf
+        return max(0.0, -_log10(size / abs(truth))) if not truth.is_zero() else math.nan
+
+    def _orbital(self, t: Fraction, y: Sequence[arb]) -> tuple[float, float]:
+        """(phase error in rad, amplitude error in rad)."""
+        if self._orbits is None:
+            return math.nan, math.nan
+        return apart(self._orbits.place(y), self._orbits.truth(t))
+
+    def _energy_error(self, y: Sequence[arb]) -> float:
+        invariant = self._invariant(y)
+        if invariant is None or self._start is None:
+            return math.nan
+        change = invariant - self._start
+        return float(change if self._start.contains(0) else change / self._start)
+
+    def _invariant(self, y: Sequence[arb]) -> arb | None:
+        try:
+            found: Any = self._problem.invariant(BALL, y, self._parameters)
+        except NotImplementedError:
+            return None
+        return arb(found)
+
+
+def _log10(ball: arb) -> float:
+    """log10 of a positive ball, of any size."""
+    return float(ball.mid().log() / arb(10).log())
+
+
+def _log_size(ball: arb) -> float:
+    """log10 of its size, -infinite where it is exactly zero."""
+    return -math.inf if ball.is_zero() else _log10(abs(ball))
+
+
+def _correct(given: Written, digits: float, error: arb) -> float:
+    """The digits, or all that are written where the last of them is right too."""
+    if given.last is not None and abs(error) <= arb(10) ** given.last / 2:
+        return max(digits, given.digits)
+    return digits
+
+
+def _first_wrong(given: Written, digits: float, error: arb) -> int | None:
+    """The place of the first significant digit of which half a unit is less than the error; None beyond the last."""
+    if math.isinf(digits) or (given.last is None and digits >= given.digits):
+        return None
+    wrong = math.ceil(_log10(2 * abs(error))) - 1
+    if given.last is not None and wrong < given.last:
+        return None
+    if given.last is not None:
+        leading = given.last + max(int(given.digits), 1) - 1
+    else:
+        leading = math.floor(_log10(abs(BALL.number(given.value)))) if given.value else wrong
+    return max(leading - wrong, 0) + 1

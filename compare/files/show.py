@@ -1,0 +1,184 @@
+"""Judged rows as text, Markdown, LaTeX, JSON and CSV."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+import math
+import re
+from typing import TYPE_CHECKING, Any
+
+from compare.show import text_table as grid
+from compare.show.text_table import Column, Grid, Section
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from compare.files.record import Point, Score
+
+__all__ = ["csv_header", "csv_rows", "json_text", "marked", "rendered"]
+
+ERRORS = ("phase_error", "amplitude_error", "energy_error")
+NOTE = "[ ] holds the first wrong digit of a number; where there is none, every digit is right."
+
+
+def marked(text: str, place: int | None) -> str:
+    """A number with the digit in brackets that has this place among its significant digits, from 1.
+
+    A digit beyond those written is shown: it is the zero that was left out.
+    """
+    if place is None or "/" in text:
+        return text
+    mantissa, exponent = re.fullmatch(r"([^eEdDqQ]*)(.*)", text, re.DOTALL).groups()  # type: ignore[union-attr]
+    digits = [i for i, letter in enumerate(mantissa) if letter.isdigit()]
+    leading = next((n for n, i in enumerate(digits) if mantissa[i] != "0"), len(digits) - 1)
+    missing = leading + place - len(digits)
+    if missing > 0:
+        mantissa += ("" if "." in mantissa else ".") + "0" * missing
+        return f"{mantissa[:-1]}[0]{exponent}"
+    at = digits[leading + place - 1]
+    return f"{mantissa[:at]}[{mantissa[at]}]{mantissa[at + 1 :]}{exponent}"
+
+
+def rendered(score: Score, form: str) -> str:
+    """The rows that were kept, and the summary, as text, markdown, latex or json."""
+    if form == "json":
+        return json_text(score)
+    title = f"{score.problem}: times read {'as the doubles they spell' if score.times == 'binary64' else 'as written'}"
+    wide = any(len(value) > 40 for point in score.points for value in point.values)
+    columns = [Column("row"), Column("t"), *(Column(name, left=True) for name in score.names)]
+    columns += [
+        Column("digits"),
+        Column("on scale"),
+        Column("error"),
+        *(Column(name.removesuffix("_error"), "error of") for name in ERRORS),
+    ]
+    rows = tuple(_cells(point) for point in score.points)
+    tables = _split(columns, rows, 2 + len(score.names)) if wide else (Grid(tuple(columns), rows),)
+    shown = len(score.points)
+    legend = NOTE if shown == score.rows else f"{NOTE} {shown} of {score.rows} rows are shown."
+    section = Section("score", title, tables, " ".join((legend, *score.notes)))
+    layout = {"text": grid.text, "markdown": grid.markdown, "latex": grid.latex}[form]
+    summary = summary_line(score)
+    return f"{layout(section)}\n{grid.markdown_text(summary) if form == 'markdown' else _comment(summary, form)}\n"
+
+
+def _comment(summary: str, form: str) -> str:
+    return f"% {summary}" if form == "latex" else summary
+
+
+def _split(columns: list[Column], rows: tuple[tuple[str, ...], ...], at: int) -> tuple[Grid, ...]:
+    """Numbers too long for one line beside their errors: a table of each, by the number of the row."""
+    return (
+        Grid(tuple(columns[:at]), tuple(row[:at] for row in rows)),
+        Grid((columns[0], *columns[at:]), tuple((row[0], *row[at:]) for row in rows)),
+    )
+
+
+def _cells(point: Point) -> tuple[str, ...]:
+    values = map(marked, point.values, point.first_wrong)
+    errors = (_size(getattr(point, name)) for name in ERRORS)
+    return (
+        str(point.number),
+        point.t,
+        *values,
+        f"{point.digits:.1f}",
+        f"{point.scaled_digits:.1f}",
+        _size(point.error),
+        *errors,
+    )
+
+
+def _size(error: float) -> str:
+    return "-" if math.isnan(error) else f"{error:.1e}"
+
+
+def summary_line(score: Score) -> str:
+    """The summary in one line."""
+    parts = [
+        f"{score.rows} row{'s' if score.rows > 1 else ''}",
+        f"worst {score.worst_digits:.1f} correct digits (row {score.worst_row})",
+        f"{score.worst_scaled_digits:.1f} on scale (row {score.worst_scaled_row})",
+        f"max error {score.max_error:.1e}",
+    ]
+    for what, value, units in (
+        ("phase", score.max_phase_error, " rad"),
+        ("amplitude", score.max_amplitude_error, f" {score.units[0]}".removesuffix(" 1")),
+        ("energy", score.max_energy_error, ""),
+    ):
+        parts.append(f"{what} {_size(value)}{units}" if not math.isnan(value) else f"{what} -")
+    return ", ".join(parts)
+
+
+def json_text(score: Score) -> str:
+    """One object; "rows" is their number, "points" are those that were kept; what is not a number is null."""
+    names = score.names
+    answer = {
+        "problem": score.problem,
+        "units": dict(zip(names, score.units, strict=True)),
+        "rows": score.rows,
+        "worst_digits": score.worst_digits,
+        "worst_row": score.worst_row,
+        "worst_scaled_digits": score.worst_scaled_digits,
+        "worst_scaled_row": score.worst_scaled_row,
+        "scales": dict(zip(names, score.scales, strict=True)),
+        "digits_held": score.digits_held,
+        "max_error": _number(score.max_error),
+        "max_errors": {name: _number(value) for name, value in zip(names, score.max_errors, strict=True)},
+        "max_phase_error": _number(score.max_phase_error),
+        "max_amplitude_error": _number(score.max_amplitude_error),
+        "max_energy_error": _number(score.max_energy_error),
+        "times": score.times,
+        "notes": list(score.notes),
+    }
+    head = json.dumps(answer, indent=2, ensure_ascii=False, allow_nan=False).removesuffix("\n}")
+    rows = ",\n".join(f"    {json.dumps(_plain(point, names), ensure_ascii=False)}" for point in score.points)
+    return f'{head},\n  "points": [\n{rows}\n  ]\n}}\n'
+
+
+def _plain(point: Point, names: tuple[str, ...]) -> dict[str, Any]:
+    return {
+        "row": point.number,
+        "t": point.t,
+        **dict(zip(names, point.values, strict=True)),
+        "digits": point.digits,
+        "scaled_digits": point.scaled_digits,
+        "error": _number(point.error),
+        "errors": {name: _number(value) for name, value in zip(names, point.errors, strict=True)},
+        "first_wrong_digit": dict(zip(names, point.first_wrong, strict=True)),
+        **{name: _number(getattr(point, name)) for name in ERRORS},
+    }
+
+
+def _number(value: float) -> float | None:
+    return value if math.isfinite(value) else None
+
+
+def csv_header(names: Iterable[str]) -> str:
+    """The first line of the rows as CSV."""
+    parts = [f"{name}{suffix}" for suffix in ("_error", "_first_wrong_digit") for name in names]
+    return _csv([["row", "t", *names, "digits", "error", *parts, *ERRORS]])
+
+
+def csv_rows(points: Iterable[Point]) -> str:
+    """Rows as CSV; what is not a number, or a first wrong digit that there is not, is an empty field."""
+    return _csv(
+        [
+            point.number,
+            point.t,
+            *point.values,
+            point.digits,
+            point.error,
+            *point.errors,
+            *("" if place is None else place for place in point.first_wrong),
+            *("" if math.isnan(error) else error for error in (getattr(point, name) for name in ERRORS)),
+        ]
+        for point in points
+    )
+
+
+def _csv(rows: Iterable[list[Any]]) -> str:
+    buffer = io.StringIO()
+    csv.writer(buffer, lineterminator="\n").writerows(rows)
+    return buffer.getvalue()

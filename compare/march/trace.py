@@ -1,0 +1,204 @@
+"""A method and a problem, traced once with symbols and compiled by heyoka: a block of steps over lanes.
+
+Every lane is one march of its own, with its own start, step size and parameters.  A block takes some steps; it gives
+the state after every step, or after the last one with the running maxima of the energy error.  What a method remembers
+of earlier steps stands behind the state and is marched with it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, Literal
+
+import numpy as np
+
+from compare.march.equation import BoundSystem, plain_system
+from compare.march.sine import LaneArithmetic
+from compare.measure.aspects import aspect_of
+from compare.methods.order.algebraic import Q
+from reference.arithmetic.compiler import hy
+from reference.arithmetic.namespaces import Heyoka
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from compare.march.precision import Precision
+    from compare.methods.kinds.protocol import Method, State
+    from reference.problem import Problem
+
+__all__ = ["Block", "Record", "TraceError", "compile_block", "entry_rows", "plain_block"]
+
+Record = Literal["every", "last"]
+CHECK_LANES = 8
+
+
+class TraceError(ArithmeticError):
+    """A compiled step does not do what the plain step does."""
+
+
+@dataclass(frozen=True)
+class Block:
+    """``steps`` compiled steps over lanes.
+
+    Rows of the input are the state, the method's memory, then two that carry the running maxima of |invariant - start|
+    and of the change by the last iteration.  Rows of the output are the same: once, or with record "every" once per
+    step with the values of that step in place of the maxima.  Parameter rows: h, the start's invariant, the parameters.
+    """
+
+    function: Any
+    steps: int
+    batch: int
+    record: Record
+
+    def __call__(self, lanes: np.ndarray, parameters: np.ndarray, out: np.ndarray) -> None:
+        """Advance C-contiguous ``lanes`` [rows, lanes], whose number is a multiple of the batch, into ``out``."""
+        self.function(lanes, pars=parameters, outputs=out, batch_parallel=False)
+
+    def out_rows(self, rows: int) -> int:
+        """How many rows the output has for inputs of ``rows`` rows."""
+        return rows * (self.steps if self.record == "every" else 1)
+
+
+def _greater(a: Any, b: Any) -> Any:
+    """max(a, b), where a NaN in ``a`` wins."""
+    return hy.select(hy.lte(a, b), b, a)
+
+
+def _size(values: Sequence[Any]) -> Any:
+    """The largest absolute value of some expressions."""
+    sizes = [hy.select(hy.lt(value, 0.0), -value, value) for value in values]
+    largest = sizes[0]
+    for size in sizes[1:]:
+        largest = _greater(size, largest)
+    return largest
+
+
+def compile_block(
+    method: Method,
+    problem: Problem,
+    fmt: Precision,
+    steps: int,
+    record: Record,
+    batch: int,
+    iterations: int = 0,
+    *,
+    drift: bool = True,
+    inline_sine: bool = False,
+    brief: bool = False,
+    fast_math: bool = False,
+) -> Block:
+    """Trace ``steps`` steps of a method and compile them.
+
+    ``iterations`` is for implicit methods; without ``drift`` the invariant is not followed and its row stays as it was.
+    ``inline_sine``, for doubles, marches faster and compiles slower; ``brief`` compiles faster and marches slower;
+    ``fast_math`` lets the compiler change the order of sums, and is for comparison alone.
+
+    Raises:
+        TraceError: the compiled block does not agree with the plain steps at random points.
+    """
+    dimension = len(problem.state_names)
+    remembered = method.memory(dimension, getattr(problem, "positions", 0))
+    y = _variables([*problem.state_names, *(f"memory_{i}" for i in range(remembered))])
+    symbols = {name: hy.par[i + 2] for i, name in enumerate(problem.parameters)}
+    arithmetic = (LaneArithmetic if inline_sine else Heyoka)(fmt.number)
+    system = BoundSystem(problem, arithmetic, symbols, fmt, hy.par[1])
+    maxima = _variables(("drift", "change"))
+    every: list[Any] = []
+    state, largest = y, maxima
+    for _ in range(steps):
+        state, changes = method.step(system, state, hy.par[0], iterations)
+        off = _size([system.invariant(state[:dimension]) - hy.par[1]]) if drift else maxima[0]
+        moved = _size(changes) if changes else hy.expression(0.0)
+        every += [*state, off, moved]
+        largest = (_greater(off, largest[0]) if drift else off), _greater(moved, largest[1])
+    outputs = list(map(_expression, every if record == "every" else [*state, *largest]))
+    options = {"fast_math": fast_math, **fmt.compiler_options, **({"opt_level": 0} if brief else {})}
+    function = hy.cfunc(outputs, vars=[*y, *maxima], batch_size=batch, **options)
+    block = Block(function, steps, batch, record)
+    _trust(block, method, problem, fmt, iterations)
+    return block
+
+
+def _variables(names: Sequence[str]) -> tuple[Any, ...]:
+    return tuple(hy.expression(name) for name in names)
+
+
+def _expression(value: Any) -> Any:
+    """A remembered slope of a curve's own coordinate is a number of the format, which a block gives as a constant."""
+    return value if isinstance(value, hy.expression) else hy.expression(value)
+
+
+def entry_rows(
+    method: Method, problem: Problem, fmt: Precision, states: np.ndarray, parameters: np.ndarray
+) -> np.ndarray:
+    """The start of a march and every step of the method's opening, on NumPy arrays: [opening + 1, rows, lanes].
+
+    The rows are those of a block's input; the last of them are complete, the others have zeros for a memory.
+    """
+    system = plain_system(problem, fmt, parameters)
+    opened, y = method.start(system, tuple(states), parameters[0])
+    before = [tuple(states), *opened][: method.opening]
+    blank = (fmt.zeros(states.shape[1:]),) * (len(y) - len(states))
+    return np.stack([_rows(system, fmt, state, ()) for state in (*((*state, *blank) for state in before), y)])
+
+
+def plain_block(
+    method: Method,
+    problem: Problem,
+    fmt: Precision,
+    states: np.ndarray,
+    parameters: np.ndarray,
+    steps: int,
+    iterations: int,
+) -> np.ndarray:
+    """The first steps of a march on NumPy arrays, the method's opening among them: [steps, rows, lanes]."""
+    system = plain_system(problem, fmt, parameters)
+    found = list(entry_rows(method, problem, fmt, states, parameters))
+    y: State = tuple(found[-1][:-2])
+    while len(found) <= steps:
+        y, changes = method.step(system, y, parameters[0], iterations)
+        found.append(_rows(system, fmt, y, changes))
+    return np.stack(found[1:])
+
+
+def _rows(system: BoundSystem, fmt: Precision, y: State, changes: State) -> np.ndarray:
+    """State, memory, |invariant - start| and the largest change of one step over all lanes."""
+    zero = fmt.zeros(np.shape(y[0]))
+    off = np.abs(system.invariant(y[: system.dimension]) - system.level)
+    moved = np.max(np.abs(np.stack(np.broadcast_arrays(*changes))), axis=0) if changes else zero
+    return np.stack([*(component + zero for component in y), off, moved])
+
+
+def _trust(block: Block, method: Method, problem: Problem, fmt: Precision, iterations: int) -> None:
+    """Hold the compiled block against the plain steps at random points: an ``if`` on a symbol is silently true."""
+    states, parameters = _random_points(problem, fmt, block.batch)
+    plain = plain_block(method, problem, fmt, states, parameters, method.opening + block.steps, iterations)
+    entry = entry_rows(method, problem, fmt, states, parameters)[-1]
+    out = fmt.zeros((block.out_rows(len(entry)), states.shape[1]))
+    block(entry, parameters, out)
+    traced = out.reshape(-1, *entry.shape)[:, : len(states)]
+    expected = plain[-len(traced) :, : len(states)]
+    gap = np.max(np.abs((traced - expected).astype(np.float64)))
+    allowed = 1000 * block.steps * fmt.epsilon * (1 + np.max(np.abs(expected.astype(np.float64))))
+    if not gap <= allowed:
+        raise TraceError(
+            f"{method.name} compiled for {problem.name} in {fmt.name} is off by {gap:.1e} from its plain evaluation "
+            f"({allowed:.1e} is allowed); a step whose path depends on its values cannot be traced."
+        )
+
+
+def _random_points(problem: Problem, fmt: Precision, batch: int) -> tuple[np.ndarray, np.ndarray]:
+    """Random states, step sizes and parameters within the family's intervals for a trial, each its own level."""
+    random = np.random.default_rng(20260101)
+    lanes_count = batch * -(-CHECK_LANES // batch)
+    trial = aspect_of(problem).trial
+
+    def column(low: float, high: float) -> np.ndarray:
+        return fmt.array(Q(float(value)) for value in random.uniform(low, high, lanes_count))
+
+    states = np.stack([column(*trial.state(i)) for i in range(len(problem.state_names))])
+    values = [column(*trial.parameter(name)) for name in problem.parameters]
+    h = column(*trial.step)
+    parameters = np.stack([h, fmt.zeros(h.shape), *values])
+    parameters[1] = plain_system(problem, fmt, parameters).invariant(tuple(states))
+    return states, parameters

@@ -1,0 +1,166 @@
+"""One cell of a study before any method runs it: a problem, a number of steps, and the truth at its sample times."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from functools import lru_cache
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from compare.march.equation import FormatArithmetic
+from compare.march.lanes import Lane, sample_steps, start_level
+from compare.measure.aspects import Aspect, aspect_of, conserves
+from compare.measure.cases import case_of
+from compare.measure.conditioning import Reach, reach
+from reference.once import cached_property
+
+if TYPE_CHECKING:
+    from fractions import Fraction
+
+    from compare.march.precision import Precision
+    from compare.measure.records import Case
+    from reference.problem import Problem
+
+__all__ = ["SAMPLES", "Course"]
+
+SAMPLES = 128
+
+
+@dataclass(frozen=True)
+class Course:
+    """A problem in n steps up to t_end, whose state is compared after some of them."""
+
+    problem: Problem
+    n: int
+    t_end: Fraction
+    fmt: Precision
+    samples: int = SAMPLES
+
+    def __post_init__(self) -> None:
+        for name, value in zip(self.problem.state_names, self.problem.start, strict=True):
+            if value and not self.fmt.number(value):
+                raise ValueError(f"{name} starts at {float(value)}, which {self.fmt.name} cannot hold.")
+
+    @cached_property
+    def h(self) -> Fraction:
+        """t_end/N rounded to the format, exactly.
+
+        Raises:
+            ValueError: it is smaller than any number of the format.
+        """
+        h = self.fmt.round(self.t_end / self.n)
+        if not self.fmt.number(h):
+            raise ValueError(
+                f"t_end/n is {float(h):.1e}, which {self.fmt.name} cannot hold; a longer time is accepted."
+            )
+        return h
+
+    @cached_property
+    def steps(self) -> tuple[int, ...]:
+        """The steps after which the state is compared."""
+        return sample_steps(self.n, self.samples)
+
+    @property
+    def grid(self) -> tuple[Fraction, tuple[int, ...]]:
+        """The times as multiples of an interval, which numbers of steps that are powers of two share."""
+        common = math.gcd(*self.steps)
+        return common * self.h, tuple(step // common for step in self.steps)
+
+    @property
+    def times(self) -> tuple[Fraction, ...]:
+        """n h, exactly."""
+        return multiples(*self.grid)
+
+    @cached_property
+    def truth(self) -> np.ndarray:
+        """The proven state at the times: float64 limbs [samples, state, limbs], enough for the format."""
+        return _proven_on(self.problem, *self.grid, _limbs(self.fmt))
+
+    @cached_property
+    def neighbour(self) -> Course:
+        """The same course from a start close by, whose truncation error is the same and whose rounding is not."""
+        return replace(self, problem=self.problem.neighbour(self.fmt.round, self.fmt.exact_epsilon))
+
+    @cached_property
+    def case(self) -> Case:
+        """The problem in a few words."""
+        return case_of(self.problem)
+
+    @property
+    def aspect(self) -> Aspect:
+        """How the state is read."""
+        return aspect_of(self.problem)
+
+    @cached_property
+    def reach(self) -> Reach:
+        """How large the motion is, and how far it carries roundings: the same object on the same grid of times."""
+        return _reach_on(self.problem, *self.grid, self.fmt)
+
+    def place(self, errors: np.ndarray) -> np.ndarray:
+        """The error of the place at each sample, of errors [samples, state]: of several components the largest."""
+        largest: np.ndarray = np.max((np.abs(errors) / self.reach.units)[:, list(self.aspect.places)], axis=1)
+        return largest
+
+    def carried(self, errors: np.ndarray) -> float:
+        """What errors [samples, state] of the component that the place is a function of make of the place.
+
+        They are of rounding alone, and the same in a neighbour.  A step that takes a slope there takes another one.
+        """
+        along = self.aspect.along
+        if along is None:
+            return 0.0
+        return float(np.max((self.reach.slopes + float(self.h) * self.reach.bends) * np.abs(errors[:, along])))
+
+    @property
+    def lane(self) -> Lane:
+        """The march that this course asks for."""
+        return Lane(self.problem, self.n, self.h, self.steps)
+
+    def errors(self, states: np.ndarray) -> np.ndarray:
+        """States - truth, float64 [samples, state]."""
+        return self.fmt.difference(states, self.truth)
+
+    @cached_property
+    def level(self) -> float:
+        """The invariant at the start."""
+        return float(start_level(self.problem, self.fmt))
+
+    def drift(self, states: np.ndarray) -> np.ndarray:
+        """(E - E0)/(E0 - Emin) of states [samples, state], computed in the format, as float64.
+
+        Not a number where nothing is conserved, or where E0 - Emin is below the range of the format.
+        """
+        problem, start = self.problem, start_level(self.problem, self.fmt)
+        if not conserves(problem) or not start:
+            return np.full(len(states), np.nan)
+        parameters = {name: self.fmt.number(value) for name, value in problem.parameters.items()}
+        energies = problem.invariant(FormatArithmetic(self.fmt), tuple(np.moveaxis(states, 1, 0)), parameters)
+        drift: np.ndarray = ((energies - start) / start).astype(np.float64)
+        return drift
+
+
+@lru_cache(maxsize=64)
+def multiples(unit: Fraction, counts: tuple[int, ...]) -> tuple[Fraction, ...]:
+    """Each count times the unit, kept."""
+    return tuple(count * unit for count in counts)
+
+
+@lru_cache(maxsize=64)
+def _proven_on(problem: Problem, unit: Fraction, counts: tuple[int, ...], limbs: int) -> np.ndarray:
+    """``problem.state`` at multiples of a time, kept: the numbers of steps of a study come back to the same."""
+    return problem.state(multiples(unit, counts), limbs=limbs)
+
+
+def _limbs(fmt: Precision) -> int:
+    """Of the truth, enough for the format."""
+    return max(2, fmt.bits // 53 + 2)
+
+
+@lru_cache(maxsize=64)
+def _reach_on(problem: Problem, unit: Fraction, counts: tuple[int, ...], fmt: Precision) -> Reach:
+    """The reach at multiples of a time, kept."""
+    near = problem.neighbour(fmt.round, fmt.exact_epsilon)
+    truth, other = (_proven_on(one, unit, counts, _limbs(fmt)) for one in (problem, near))
+    return reach(problem, truth, near, other, fmt)

@@ -1,0 +1,35 @@
+"""How a step moves a state: y + h sum_j w_j k_j, with the same few lines for every method."""
+
+from __future__ import annotations
+
+from functools import reduce
+from operator import add
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from compare.methods.kinds.protocol import Equation, State
+    from compare.methods.order.algebraic import Coefficient
+
+__all__ = ["advance", "increment", "part"]
+
+
+def part(system: Equation, weight: Coefficient, h: Any) -> Any:
+    """weight h: the same in every step, so that the compiler takes it out of them all."""
+    return h if weight == 1 else system.number(weight) * h
+
+
+def increment(system: Equation, h: Any, weights: Sequence[Coefficient], slopes: Sequence[State]) -> State:
+    """sum_j (h weights_j) slopes_j; nothing where every weight is zero."""
+    sizes = [(part(system, weight, h), slope) for weight, slope in zip(weights, slopes, strict=False) if weight != 0]
+    if not sizes:
+        return ()
+    components = range(len(sizes[0][1]))
+    return tuple(reduce(add, (size * slope[i] for size, slope in sizes)) for i in components)
+
+
+def advance(system: Equation, y: State, h: Any, weights: Sequence[Coefficient], slopes: Sequence[State]) -> State:
+    """y + sum_j (h weights_j) slopes_j."""
+    moved = increment(system, h, weights, slopes)
+    return tuple(map(add, y, moved)) if moved else y

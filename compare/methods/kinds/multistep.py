@@ -1,0 +1,185 @@
+"""Linear multistep methods: frozen tables of exact coefficients, and the step that follows in any arithmetic."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from compare.methods.kinds import newton
+from compare.methods.kinds.increment import increment
+from compare.methods.kinds.past import Past, moved, total, without_zeros
+from compare.methods.order.algebraic import Q
+from compare.methods.order.multistep import is_zero_stable, multistep_order
+from reference.once import cached_property
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+    from fractions import Fraction
+
+    from compare.methods.kinds.protocol import Method, State, System
+
+__all__ = ["LinearMultistep", "PredictorCorrector"]
+
+
+@dataclass(frozen=True)
+class LinearMultistep:
+    """sum_j alpha_j y_{n+j} = h sum_j beta_j f_{n+j},  j = 0 ... k,  alpha_k = 1; explicit where beta_k = 0.
+
+    A step adds an increment to y_{n+k-1}: since the alpha sum to 0, the states enter by their differences alone.
+
+    Raises:
+        ValueError: alpha and beta are not of one length, alpha_k is not 1, or the alpha do not sum to 0.
+    """
+
+    name: str
+    order: int
+    source: str
+    alpha: tuple[Fraction, ...]
+    beta: tuple[Fraction, ...]
+    starter: Method
+    aliases: tuple[str, ...] = ()
+    family: str = "multistep"
+    symplectic: bool = False
+    separable_only: bool = False
+
+    def __post_init__(self) -> None:
+        if len(self.alpha) != len(self.beta):
+            raise ValueError(
+                f"{self.name}: there are {len(self.alpha)} alpha and {len(self.beta)} beta; equally many are accepted."
+            )
+        if self.alpha[-1] != 1 or sum(self.alpha) != 0:
+            raise ValueError(
+                f"{self.name}: alpha ends in {self.alpha[-1]} and sums to {sum(self.alpha)}; 1 and 0 are accepted."
+            )
+
+    @property
+    def zero_stable(self) -> bool:
+        """Whether past errors stay bounded: the root condition."""
+        return is_zero_stable(self.alpha)
+
+    def proven_order(self) -> int:
+        return multistep_order(self.alpha, self.beta)
+
+    @property
+    def stages(self) -> int:
+        return 1
+
+    @property
+    def explicit(self) -> bool:
+        return self.beta[-1] == 0
+
+    @cached_property
+    def of_moves(self) -> tuple[Fraction, ...]:
+        """The weights of the past increments, latest first: -(alpha_j + ... + alpha_k) for y_{n+j} - y_{n+j-1}."""
+        return without_zeros(tuple(-sum(self.alpha[j:], Q(0)) for j in range(len(self.alpha) - 2, 0, -1)))
+
+    @cached_property
+    def of_slopes(self) -> tuple[Fraction, ...]:
+        """The weights of the past slopes, latest first."""
+        return without_zeros(self.beta[-2::-1])
+
+    @cached_property
+    def past(self) -> Past:
+        """What is remembered from step to step."""
+        return Past(len(self.of_moves), len(self.of_slopes), self.starter)
+
+    @property
+    def opening(self) -> int:
+        return self.past.opening
+
+    def memory(self, dimension: int, positions: int) -> int:  # noqa: ARG002
+        return dimension * (self.past.moves + self.past.slopes)
+
+    @property
+    def _matrix(self) -> newton.Matrix:
+        return ((self.beta[-1],),)
+
+    def iterations(self, size: float, bits: int) -> int:
+        return 0 if self.explicit else newton.iterations(size * float(abs(self.beta[-1])), bits)
+
+    def evaluations(self, iterations: int) -> tuple[int, int]:
+        return (1 if self.explicit else newton.evaluations(self._matrix, iterations)), self.past.evaluations
+
+    def jacobians(self, iterations: int) -> int:
+        return 0 if self.explicit else newton.jacobians(self._matrix, iterations)
+
+    def start(self, system: System, y: State, h: Any) -> tuple[tuple[State, ...], State]:
+        return self.past.start(system, y, h, system.derivative)
+
+    def step(self, system: System, y: State, h: Any, iterations: int = 0) -> tuple[State, State]:
+        state, moves, slopes = self.past.split(y, system.dimension)
+        move, changes = self.known(system, h, moves, slopes), ()
+        if self.explicit:
+            slope = system.derivative(moved(state, move))
+        else:
+            base, matrices = moved(state, move), (self._matrix,) * system.dimension
+            (slope,), last_changes = newton.slopes(system, base, h, matrices, iterations)
+            move = total(move, increment(system, h, self.beta[-1:], [slope]))
+            changes = increment(system, h, self.beta[-1:], last_changes)
+        return self.past.join(moved(state, move), [move, *moves], [slope, *slopes]), changes
+
+    def known(self, system: System, h: Any, moves: Sequence[State], slopes: Sequence[State]) -> State:
+        """The part of the increment that follows from the past."""
+        return total(
+            increment(system, system.number(Q(1)), self.of_moves, moves), increment(system, h, self.of_slopes, slopes)
+        )
+
+
+@dataclass(frozen=True)
+class PredictorCorrector:
+    """An explicit method predicts, an implicit one corrects once: predict, evaluate, correct, evaluate (PECE)."""
+
+    name: str
+    order: int
+    source: str
+    predictor: LinearMultistep
+    corrector: LinearMultistep
+    aliases: tuple[str, ...] = ()
+    family: str = "multistep"
+    symplectic: bool = False
+    separable_only: bool = False
+
+    def __post_init__(self) -> None:
+        if not self.predictor.explicit or self.corrector.explicit:
+            raise ValueError(f"{self.name}: an explicit predictor and an implicit corrector are accepted.")
+
+    def proven_order(self) -> int:
+        """The corrector's, but at most one above that of the predictor, whose error enters times h."""
+        return min(self.corrector.proven_order(), self.predictor.proven_order() + 1)
+
+    @property
+    def stages(self) -> int:
+        return 2
+
+    @cached_property
+    def past(self) -> Past:
+        """What is remembered from step to step."""
+        both = self.predictor.past, self.corrector.past
+        return Past(max(past.moves for past in both), max(past.slopes for past in both), self.predictor.starter)
+
+    @property
+    def opening(self) -> int:
+        return self.past.opening
+
+    def memory(self, dimension: int, positions: int) -> int:  # noqa: ARG002
+        return dimension * (self.past.moves + self.past.slopes)
+
+    def iterations(self, size: float, bits: int) -> int:  # noqa: ARG002
+        return 0
+
+    def evaluations(self, iterations: int) -> tuple[int, int]:  # noqa: ARG002
+        return 2, self.past.evaluations
+
+    def jacobians(self, iterations: int) -> int:  # noqa: ARG002
+        return 0
+
+    def start(self, system: System, y: State, h: Any) -> tuple[tuple[State, ...], State]:
+        return self.past.start(system, y, h, system.derivative)
+
+    def step(self, system: System, y: State, h: Any, iterations: int = 0) -> tuple[State, State]:  # noqa: ARG002
+        state, moves, slopes = self.past.split(y, system.dimension)
+        predicted = system.derivative(moved(state, self.predictor.known(system, h, moves, slopes)))
+        known = self.corrector.known(system, h, moves, slopes)
+        move = total(known, increment(system, h, self.corrector.beta[-1:], [predicted]))
+        new = moved(state, move)
+        return self.past.join(new, [move, *moves], [system.derivative(new), *slopes]), ()

@@ -1,0 +1,198 @@
+"""One-step methods: frozen tables, and the step that follows from each in any arithmetic."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import TYPE_CHECKING, Any
+
+from compare.methods.kinds import newton
+from compare.methods.kinds.increment import advance, increment, part
+from compare.methods.kinds.properties import is_symmetric, is_symplectic, used_stages
+from compare.methods.kinds.protocol import Method, OneStep, State, System
+from compare.methods.order.algebraic import Coefficient, Q, enclose
+from reference.once import cached_property
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+__all__ = ["Embedded", "Method", "OneStep", "Splitting", "State", "System", "Tableau", "compose"]
+
+
+@dataclass(frozen=True)
+class Embedded:
+    """Other weights on the stages of a Runge-Kutta method: a result of another order, to estimate the error by."""
+
+    order: int
+    b: tuple[Coefficient, ...]
+
+
+@dataclass(frozen=True)
+class Tableau(OneStep):
+    """A Runge-Kutta method: Y_i = y + h sum_j a_ij f(Y_j),  y+ = y + h sum_i b_i f(Y_i).
+
+    ``a`` is given as printed: for an explicit method the strictly lower rows (the first empty).  ``c`` is derived from
+    c_i = sum_j a_ij; ``nodes`` are the printed ones where they are others, to be shown: the equations hold no time.
+
+    Raises:
+        ValueError: the shapes of ``a``, ``b`` and the embedded weights do not match, or weights do not sum to 1.
+    """
+
+    name: str
+    order: int
+    source: str
+    a: tuple[tuple[Coefficient, ...], ...]
+    b: tuple[Coefficient, ...]
+    family: str = "explicit one-step"
+    aliases: tuple[str, ...] = ()
+    separable_only: bool = False
+    embedded: tuple[Embedded, ...] = ()
+    nodes: tuple[Coefficient, ...] = ()
+
+    def __post_init__(self) -> None:
+        if len(self.a) != len(self.b) or any(len(row) > len(self.b) for row in self.a):
+            raise ValueError(
+                f"{self.name}: a has {len(self.a)} rows and b {len(self.b)} weights; equally many are accepted."
+            )
+        for weights in (self.b, *(other.b for other in self.embedded)):
+            if len(weights) != len(self.b):
+                raise ValueError(f"{self.name}: {len(weights)} embedded weights; {len(self.b)} are accepted.")
+            total = sum(weights[1:], weights[0])
+            if total != 1:
+                raise ValueError(f"{self.name}: the weights b sum to {total}; a sum of 1 is accepted.")
+
+    @property
+    def stages(self) -> int:
+        return len(self.b)
+
+    @cached_property
+    def matrix(self) -> tuple[tuple[Coefficient, ...], ...]:
+        """``a`` as a full square matrix."""
+        return tuple(row + (Q(0),) * (self.stages - len(row)) for row in self.a)
+
+    @cached_property
+    def c(self) -> tuple[Coefficient, ...]:
+        """The nodes as printed, or c_i = sum_j a_ij."""
+        return self.nodes or tuple(sum(row, Q(0)) for row in self.a)
+
+    @cached_property
+    def explicit(self) -> bool:
+        """Whether every stage depends on earlier stages alone."""
+        return all(self.matrix[i][j] == 0 for i in range(self.stages) for j in range(i, self.stages))
+
+    @cached_property
+    def used(self) -> tuple[int, ...]:
+        """The stages that a step of fixed size needs: not one that serves an error estimate alone."""
+        return used_stages(self.matrix, self.b)
+
+    @cached_property
+    def symplectic(self) -> bool:
+        """Whether b_i a_ij + b_j a_ji = b_i b_j; not so of any explicit method, whose weights would all be 0."""
+        return not self.explicit and is_symplectic(self.matrix, self.matrix, self.b)
+
+    @cached_property
+    def symmetric(self) -> bool:
+        """Whether a step back undoes a step; not so of any explicit method."""
+        return not self.explicit and is_symmetric(self.matrix, self.b)
+
+    @cached_property
+    def fsal(self) -> bool:
+        """Whether the last stage is evaluated where the next step begins."""
+        return self.stages > 1 and self.matrix[-1] == self.b and all(entry == 0 for entry in self.matrix[0])
+
+    def iterations(self, size: float, bits: int) -> int:
+        if self.explicit:
+            return 0
+        norm = max(sum(abs(float(enclose(entry))) for entry in row) for row in self.matrix)
+        return newton.iterations(size * norm, bits)
+
+    def evaluations(self, iterations: int) -> tuple[int, int]:
+        return (len(self.used) if self.explicit else newton.evaluations(self.matrix, iterations)), 0
+
+    def jacobians(self, iterations: int) -> int:
+        return newton.jacobians(self.matrix, iterations)
+
+    def step(self, system: System, y: State, h: Any, iterations: int = 0) -> tuple[State, State]:
+        if not self.explicit:
+            solved, changes = newton.slopes(system, y, h, (self.matrix,) * len(y), iterations)
+            return advance(system, y, h, self.b, solved), increment(system, h, self.b, changes)
+        slopes: list[State] = []
+        for i, row in enumerate(self.matrix):
+            slopes.append(system.derivative(advance(system, y, h, row, slopes)) if i in self.used else ())
+        return advance(system, y, h, self.b, slopes), ()
+
+
+@dataclass(frozen=True)
+class Splitting(OneStep):
+    """A composition of the exact flows of the two halves of a separable system, in the order they are applied.
+
+    ``flows`` is a sequence of ("kick", d), which adds d h force(q) to the momenta, and ("drift", c), which adds
+    c h velocity(p) to the positions.  Symplectic for every separable Hamiltonian.  With ``nystrom`` it has its order
+    where the velocity is linear in the momenta, and may have a lower one elsewhere.
+
+    Raises:
+        ValueError: kicks or drifts do not sum to 1, or neighbours are of one kind.
+    """
+
+    name: str
+    order: int
+    source: str
+    flows: tuple[tuple[str, Coefficient], ...]
+    aliases: tuple[str, ...] = ()
+    family: str = "symplectic, explicit"
+    symplectic: bool = True
+    separable_only: bool = True
+    nystrom: bool = False
+
+    def __post_init__(self) -> None:
+        for kind in ("kick", "drift"):
+            total: Any = sum((weight for flow, weight in self.flows if flow == kind), Q(0))
+            if total != 1:
+                raise ValueError(f"{self.name}: the {kind}s sum to {total}; a sum of 1 is accepted.")
+        if any(first[0] == second[0] for first, second in pairwise(self.flows)):
+            raise ValueError(
+                f"{self.name}: two neighbouring flows are of one kind; kicks and drifts in turn are accepted."
+            )
+
+    @property
+    def stages(self) -> int:
+        return sum(kind == "kick" for kind, _ in self.flows)
+
+    @cached_property
+    def symmetric(self) -> bool:
+        """Whether a step back undoes a step: the flows are a palindrome."""
+        return self.flows == self.flows[::-1]
+
+    @property
+    def fsal(self) -> bool:
+        """Whether the last kick's force is the first kick's of the next step."""
+        return self.flows[0][0] == self.flows[-1][0] == "kick"
+
+    def evaluations(self, iterations: int) -> tuple[int, int]:  # noqa: ARG002
+        """One fewer per step where the last kick's force is the first kick's of the next step."""
+        return self.stages - self.fsal, int(self.fsal)
+
+    def step(self, system: System, y: State, h: Any, iterations: int = 0) -> tuple[State, State]:  # noqa: ARG002
+        positions, momenta = y[: system.positions], y[system.positions :]
+        for kind, weight in self.flows:
+            dt = part(system, weight, h)
+            if kind == "kick":
+                momenta = tuple(p + dt * f for p, f in zip(momenta, system.force(positions), strict=True))
+            else:
+                positions = tuple(q + dt * v for q, v in zip(positions, system.velocity(momenta), strict=True))
+        return positions + momenta, ()
+
+
+def compose(
+    base: Splitting, weights: Sequence[Coefficient], name: str, order: int, source: str, aliases: tuple[str, ...] = ()
+) -> Splitting:
+    """The splitting that applies ``base`` with steps ``weights`` h one after another, neighbours of one kind merged."""
+    flows: list[tuple[str, Any]] = []
+    factors: Sequence[Any] = weights
+    for weight in factors:
+        for kind, coefficient in base.flows:
+            scaled = weight * coefficient
+            if flows and flows[-1][0] == kind:
+                scaled = flows.pop()[1] + scaled
+            flows.append((kind, scaled))
+    return Splitting(name, order, source, tuple(flows), aliases)

@@ -1,0 +1,1 @@
+"""Proofs of order, and of stability where it has one."""

@@ -1,0 +1,113 @@
+"""The order of a method by algebra, with no step taken: the order conditions hold up to it and one fails beyond it.
+
+Rational and algebraic coefficients are held to the conditions exactly; coefficients that are the zero of order
+conditions, in balls so narrow that a condition which holds must have its zero inside and one that fails cannot.
+"""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from math import factorial
+from typing import TYPE_CHECKING, Any
+
+from flint import arb
+
+from compare.methods.kinds.one_step import Splitting, Tableau
+from compare.methods.kinds.partitioned import Partitioned
+from compare.methods.order.algebraic import Algebraic, enclose
+from compare.methods.order.lyndon_words import coefficient, lyndon_words, nystrom_words
+from compare.methods.order.rooted_trees import ElementaryWeights, density, trees
+from reference.arithmetic.precision import PrecisionError, ctx
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator, Sequence
+
+    from compare.methods.kinds.protocol import Method
+    from compare.methods.order.algebraic import Coefficient
+
+__all__ = ["PROOF_BITS", "order_of_partitioned", "order_of_splitting", "order_of_tableau", "proven_order"]
+
+PROOF_BITS = 300
+NARROW_BITS = 100
+"""A residual that is zero is known to be smaller than 2^-NARROW_BITS; one that is not is far larger."""
+LIMIT = 12
+"""No order is looked for beyond it."""
+
+
+def proven_order(method: Method) -> int | None:
+    """The order that the coefficients of a method have; None where no algebra of this package decides it."""
+    if isinstance(method, Tableau):
+        return order_of_tableau(method)
+    if isinstance(method, Splitting):
+        return order_of_splitting(method)
+    if isinstance(method, Partitioned):
+        return order_of_partitioned(method)
+    own = getattr(method, "proven_order", None)
+    return own() if own is not None else None
+
+
+def order_of_tableau(method: Tableau, b: Sequence[Coefficient] | None = None) -> int:
+    """The order of a Runge-Kutta method, or of its stages with other weights, by Butcher's trees."""
+    with ctx.workprec(PROOF_BITS):
+        values = _numbers([*(b or method.b), *(entry for row in method.matrix for entry in row)])
+        size = method.stages
+        weights, entries = values[:size], values[size:]
+        matrix = [entries[i * size : (i + 1) * size] for i in range(size)]
+        return _largest(lambda order: _tree_residuals((weights,), (matrix,), order))
+
+
+def order_of_partitioned(method: Partitioned) -> int:
+    """The order of a partitioned Runge-Kutta method, by trees of two colours: for separable systems and all others."""
+    return _largest(lambda order: _tree_residuals((method.b, method.b), (method.matrix, method.hat), order))
+
+
+def order_of_splitting(method: Splitting) -> int:
+    """The order of a splitting, by words; of a palindromic one it is even, so that odd degrees decide it.
+
+    Where the method is made for it, the velocity is taken to be linear in the momenta.
+    """
+    with ctx.workprec(PROOF_BITS):
+        weights = _numbers([weight for _, weight in method.flows])
+        factors = [{kind: weight} for (kind, _), weight in zip(method.flows, weights, strict=True)]
+        words = nystrom_words if method.nystrom else lyndon_words
+
+        def residuals(degree: int) -> Iterator[Any]:
+            if method.symmetric and degree % 2 == 0:
+                return
+            for word in words(degree):
+                yield coefficient(word, factors) * factorial(degree) - 1
+
+        return _largest(residuals)
+
+
+def _tree_residuals(weights: Sequence[Sequence[Any]], matrices: Sequence[Any], order: int) -> Iterator[Any]:
+    elementary = ElementaryWeights(*matrices)
+    for tree in trees(order, len(matrices)):
+        yield elementary.weight(weights[tree[0]], tree) * density(tree) - 1
+
+
+def _largest(residuals: Callable[[int], Iterator[Any]]) -> int:
+    """The order up to which all residuals vanish."""
+    return next(
+        (order - 1 for order in range(1, LIMIT + 1) if not all(_vanishes(value) for value in residuals(order))), LIMIT
+    )
+
+
+def _vanishes(value: Any) -> bool:
+    """Whether a residual is zero.
+
+    Raises:
+        PrecisionError: its ball is too wide to tell.
+    """
+    if not isinstance(value, arb):
+        return bool(value == 0)
+    if value.contains(0) and not value.rad() < arb(2) ** -NARROW_BITS:
+        raise PrecisionError("a condition of order was met in balls too wide to decide it.")
+    return bool(value.contains(0))
+
+
+def _numbers(coefficients: Sequence[Coefficient]) -> list[Any]:
+    """The coefficients as they are where arithmetic on them is exact, else in balls."""
+    if all(isinstance(value, (int, Fraction, Algebraic)) for value in coefficients):
+        return list(coefficients)
+    return [0 if value == 0 else enclose(value) for value in coefficients]

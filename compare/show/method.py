@@ -1,0 +1,160 @@
+"""What there is to know of a method: its coefficients as tables, and facts that follow from them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any
+
+from compare.methods.kinds.multistep import LinearMultistep, PredictorCorrector
+from compare.methods.kinds.one_step import Splitting, Tableau
+from compare.methods.kinds.partitioned import Partitioned
+from compare.methods.kinds.properties import Stability
+from compare.methods.kinds.stormer import StormerCowell
+from compare.methods.order.algebraic import Algebraic
+from compare.methods.order.conditions import order_of_splitting, order_of_tableau, proven_order
+from compare.show.numerals import decimal_form
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Sequence
+
+    from compare.methods.kinds.protocol import Method
+    from compare.methods.order.algebraic import Coefficient
+
+__all__ = ["Butcher", "Description", "Rows", "describe"]
+
+DERIVED = {"symmetric": "symmetric", "fsal": "FSAL", "zero_stable": "zero-stable"}
+"""Properties that some kinds of methods derive, and what they are called."""
+
+
+@dataclass(frozen=True)
+class Butcher:
+    """A Butcher array: nodes, a square matrix, and rows of weights with the names they go by."""
+
+    title: str
+    nodes: tuple[Coefficient, ...]
+    matrix: tuple[tuple[Coefficient, ...], ...]
+    weights: tuple[tuple[str, tuple[Coefficient, ...]], ...]
+
+
+@dataclass(frozen=True)
+class Rows:
+    """Coefficients one after another: the heads of the columns, and rows of words and coefficients."""
+
+    title: str
+    heads: tuple[str, ...]
+    rows: tuple[tuple[Any, ...], ...]
+
+
+@dataclass(frozen=True)
+class Description:
+    """A method as it is shown.
+
+    Attributes:
+        name: of the method.
+        facts: labels and values: booleans, numbers, strings, tuples of them or None, in the order of reading.
+        tables: its coefficients.
+    """
+
+    name: str
+    facts: tuple[tuple[str, Any], ...]
+    tables: tuple[Butcher | Rows, ...]
+
+
+def describe(method: Method) -> Description:
+    """All that is shown of a method."""
+    facts = [
+        ("family", method.family),
+        *_formula(method),
+        *_orders(method),
+        ("stages", method.stages),
+        *_evaluations(method),
+        ("symplectic", method.symplectic),
+        *((label, getattr(method, name)) for name, label in DERIVED.items() if hasattr(method, name)),
+        *_stability(method),
+        *_needs(method),
+        *_roots(method),
+        ("aliases", method.aliases),
+        ("source", method.source),
+    ]
+    return Description(method.name, tuple(facts), tuple(_tables(method)))
+
+
+def _formula(method: Method) -> Iterator[tuple[str, str]]:
+    """What a step does, where a method says so in words because it has no table."""
+    if hasattr(method, "formula"):
+        yield "step", method.formula
+
+
+def _orders(method: Method) -> Iterator[tuple[str, Any]]:
+    yield "order", method.order
+    yield "proven order", proven_order(method)
+    if isinstance(method, Splitting) and method.nystrom:
+        yield "proven order where velocities are not linear", order_of_splitting(replace(method, nystrom=False))
+    if isinstance(method, Tableau) and method.embedded:
+        yield "proven embedded orders", tuple(order_of_tableau(method, other.b) for other in method.embedded)
+
+
+def _evaluations(method: Method) -> Iterator[tuple[str, int]]:
+    (once, start), (twice, _) = method.evaluations(1), method.evaluations(2)
+    if twice > once:
+        yield "evaluations with one iteration", once
+        yield "evaluations per further iteration", twice - once
+    else:
+        yield "evaluations per step", once
+    if start:
+        yield "evaluations at the start", start
+
+
+def _stability(method: Method) -> Iterator[tuple[str, bool]]:
+    if isinstance(method, Tableau) and not method.explicit:
+        stability = Stability(method.matrix, method.b)
+        yield "A-stable", stability.a_stable
+        yield "L-stable", stability.l_stable
+
+
+def _needs(method: Method) -> Iterator[tuple[str, str]]:
+    if method.separable_only:
+        linear = ", and velocities linear in the momenta" if getattr(method, "nystrom", False) else ""
+        yield "needs", f"positions apart from momenta{linear}"
+
+
+def _roots(method: Method) -> Iterator[tuple[str, str]]:
+    """What r is, where coefficients are polynomials in a root that has no name of its own."""
+    weights = [weight for _, weight in method.flows] if isinstance(method, Splitting) else []
+    for field in {weight.field for weight in weights if isinstance(weight, Algebraic)}:
+        if field.powers[0] == "r":
+            powers = ["", *(f"*{power}" for power in (*field.powers, f"r^{field.degree}"))]
+            terms = [f"{value}{power}" for value, power in zip(field.coefficients, powers, strict=True) if value]
+            polynomial = " + ".join(reversed(terms)).replace("+ -", "- ")
+            yield "r", f"{decimal_form(field.generator)}, where {polynomial} = 0"
+
+
+def _tables(method: Method) -> Iterator[Butcher | Rows]:
+    """The coefficients of a method; of one that is no table, none."""
+    if isinstance(method, Tableau):
+        weights = [("b", method.b), *((f"b, order {other.order}", other.b) for other in method.embedded)]
+        yield Butcher("", method.c, method.matrix, tuple(weights))
+    elif isinstance(method, Partitioned):
+        yield Butcher("positions", method.c, method.matrix, (("b", method.b),))
+        yield Butcher("momenta", tuple(map(_sum, method.hat)), method.hat, (("b", method.b),))
+    elif isinstance(method, Splitting):
+        yield Rows("flows, in the order in which they are applied", ("flow", "weight"), method.flows)
+    elif isinstance(method, PredictorCorrector):
+        yield _steps("predictor", method.predictor)
+        yield _steps("corrector", method.corrector)
+    elif isinstance(method, (LinearMultistep, StormerCowell)):
+        yield _steps("", method)
+        if isinstance(method, StormerCowell):
+            velocity = tuple((-j, weight) for j, weight in enumerate(method.of_velocity))
+            yield Rows("weights of the forces in the velocity", ("step", "w"), velocity)
+
+
+def _sum(row: Sequence[Any]) -> Any:
+    return sum(row[1:], row[0])
+
+
+def _steps(title: str, method: LinearMultistep | StormerCowell) -> Rows:
+    """alpha and beta by step, the new one 1 and the present 0."""
+    first = 2 - len(method.alpha)
+    pairs = zip(method.alpha, method.beta, strict=True)
+    return Rows(title, ("step", "alpha", "beta"), tuple((first + j, *pair) for j, pair in enumerate(pairs)))

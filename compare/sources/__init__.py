@@ -1,0 +1,1 @@
+"""The two published documents: their tables, their figures and their errata."""

@@ -1,0 +1,1 @@
+"""The numbers: exact inputs, balls, series, duals, formulas, limbs and their rounding."""

@@ -1,0 +1,1 @@
+"""What both command lines share: options, values, signals, processes and folders of our own."""

@@ -1,0 +1,190 @@
+"""The proofs again: every limb against balls that start at twice the precision, every decimal, the routes once more."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from reference.arithmetic.binary64 import shortest, unsigned_zeros
+from reference.certified import ROUTES, DisagreementError
+from reference.command.executors import opened, results
+from reference.dataset import DatasetError, load
+from reference.dataset.blocks import LIMBS, START_BITS, compare, decimals, prove
+from reference.dataset.claims import decimal_fault, measurement_fault
+from reference.dataset.plan import Group
+from reference.dataset.schema import ATTRIBUTE_LIMIT
+
+if TYPE_CHECKING:
+    import os
+    from collections.abc import Callable, Iterator
+
+    from reference.dataset import Dataset
+    from reference.dataset.plan import Block
+    from reference.problem import Row
+
+__all__ = ["Proof", "differs", "verify"]
+
+TAYLOR_ELEMENTS = 6
+"""Arguments a row that the Taylor route is asked for again, from the first."""
+
+
+@dataclass
+class Proof:
+    """What became of one variable.
+
+    Attributes:
+        name: path without the leading slash.
+        row: the row that it is of.
+        elements: how many were proven again; each has three limbs.
+        wrong: how many differ in a limb.
+        first: the first that differs, in words, or what else the file says wrongly of it; empty where nothing does.
+        digits: for each route that was asked again, the digits to which it agrees.
+        decimals: for a variable that has them, the proven decimals by element.
+    """
+
+    name: str
+    row: Row
+    elements: int = 0
+    wrong: int = 0
+    first: str = ""
+    digits: dict[str, float] = field(default_factory=dict)
+    decimals: dict[int, str] = field(default_factory=dict)
+
+    @property
+    def holds(self) -> bool:
+        """Whether every value is the one correct rounding and no route disagrees."""
+        return not self.first
+
+    def __str__(self) -> str:
+        if self.first:
+            return f"FAILED  {self.name}: {self.first}"
+        routes = ", ".join(f"{route} {digits:.1f} digits" for route, digits in self.digits.items())
+        return f"proven  {self.name}: {self.elements} elements, {LIMBS} limbs each; {routes}"
+
+
+def verify(
+    path: str | os.PathLike[str],
+    *,
+    jobs: int = 1,
+    executor: str = "process",
+    progress: Callable[[int, int], None] | None = None,
+) -> list[Proof]:
+    """Check a file as loading does, then prove each of its values again; one Proof a variable.
+
+    Raises:
+        FileNotFoundError: there is no such file.
+        DatasetError: the file failed a check before any proof.
+        WorkBoundError: a value could not be decided within the bound on the working precision.
+    """
+    dataset = load(path)
+    groups = [_group(dataset, layout.path) for layout in dataset.layouts]
+    proofs = {
+        (group.layout.path, component.quantity.name): Proof(
+            f"{group.layout.path[1:]}/{component.quantity.name}", component.row
+        )
+        for group in groups
+        for component in group.layout.variables
+    }
+    total = sum(1 for group in groups for _ in group.blocks())
+    with opened(executor, jobs) as pool:
+        blocks = (block for group in groups for block in group.blocks())
+        for done, (block, (limbs, again)) in enumerate(results(pool, _again, blocks, jobs), 1):
+            _compare(dataset, block, limbs, proofs)
+            for quantity, text in zip(block.row.quantities, again, strict=False):
+                proofs[block.layout.path, quantity.name].decimals[block.element] = text
+            if progress:
+                progress(done, total)
+        for block, digits in results(pool, _routes, _sample(groups), jobs):
+            _note_routes(block, digits, proofs)
+    for proof in proofs.values():
+        said, texts = dataset[proof.name], [proof.decimals[element] for element in sorted(proof.decimals)]
+        proof.first = (
+            proof.first
+            or decimal_fault(said, texts, ATTRIBUTE_LIMIT)
+            or measurement_fault(said.attrs, math.prod(said.shape), proof.row, proof.digits)
+        )
+    return list(proofs.values())
+
+
+def _again(block: Block) -> tuple[np.ndarray, tuple[str, ...]]:
+    """The proven limbs from twice the precision of the build, and the proven decimals."""
+    return prove(block, 2 * START_BITS), decimals(block)
+
+
+def _group(dataset: Dataset, path: str) -> Group:
+    """The group with the inputs that the file gives it."""
+    layout = next(layout for layout in dataset.layouts if layout.path == path)
+    inputs = {axis.name: dataset[f"{path}/{axis.name}"].value for axis in layout.given}
+    group = Group(layout, dataset.parameters[path], inputs)
+    for block in group.blocks():
+        try:
+            _ = block.problem
+        except ValueError as error:
+            raise DatasetError(f"'{dataset.path}': {path} at element {block.element} is no problem: {error}") from None
+        try:
+            block.check()
+        except ValueError as error:
+            where = f"{path} at element {block.element}"
+            raise DatasetError(f"'{dataset.path}': {where} has no {block.row.name}: {error}") from None
+    return group
+
+
+def _compare(dataset: Dataset, block: Block, limbs: np.ndarray, proofs: dict[tuple[str, str], Proof]) -> None:
+    for component in block.layout.variables:
+        if component.row.name != block.row.name:
+            continue
+        proof = proofs[block.layout.path, component.quantity.name]
+        value, tail = dataset[proof.name].read(block.selection(component))
+        stored = np.concatenate([np.reshape(value, (-1, 1)), np.reshape(tail, (-1, LIMBS - 1))], axis=1)
+        proven = limbs[:, component.component]
+        differing = np.flatnonzero(differs(stored, proven, signed_zeros=dataset.schema.signed_zeros).any(axis=1))
+        proof.elements += len(proven)
+        proof.wrong += differing.size
+        if differing.size and not proof.first:
+            i = int(differing[0])
+            proof.first = (
+                f"element {(block.element, block.start + i)} is stored as {_spelled(stored[i])} "
+                f"and proven to be {_spelled(proven[i])}"
+            )
+
+
+def differs(stored: np.ndarray, proven: np.ndarray, *, signed_zeros: bool) -> np.ndarray:
+    """Where float64 numbers differ: in any bit, but for the sign of zero where ``signed_zeros`` may be stored."""
+    if signed_zeros:
+        stored, proven = unsigned_zeros(stored), unsigned_zeros(proven)
+    other: np.ndarray = stored.view(np.int64) != proven.view(np.int64)
+    return other
+
+
+def _spelled(limbs: np.ndarray) -> str:
+    return f"[{', '.join(map(shortest, limbs.tolist()))}]"
+
+
+def _sample(groups: list[Group]) -> Iterator[Block]:
+    """For each row of each group the first stretch of the middle instance, short enough to integrate quickly."""
+    for group in groups:
+        short = Group(group.layout, group.parameters, group.inputs, TAYLOR_ELEMENTS)
+        blocks = list(short.blocks())
+        middle = blocks[len(blocks) // 2].element
+        yield from (block for block in blocks if block.element == middle and block.start == 0)
+
+
+def _routes(block: Block) -> dict[str, list[float]] | str:
+    """For each route the digits to which it agrees on each quantity, or the sentence of a disagreement."""
+    try:
+        found = {route: compare(block, route) for route in ROUTES}
+    except DisagreementError as error:
+        return str(error)
+    return {route: digits for route, (digits, checked) in found.items() if checked[0]}
+
+
+def _note_routes(block: Block, digits: dict[str, list[float]] | str, proofs: dict[tuple[str, str], Proof]) -> None:
+    for i, quantity in enumerate(block.row.quantities):
+        proof = proofs[block.layout.path, quantity.name]
+        if isinstance(digits, str):
+            proof.first = proof.first or digits
+        else:
+            proof.digits = {route: each[i] for route, each in digits.items()}

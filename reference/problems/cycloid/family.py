@@ -1,0 +1,106 @@
+"""The groups of the cycloid: brachistochrones to end points, and tautochrone swings."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from reference.dataset.plan import Coordinate, Group, Layout
+from reference.problems.cycloid import Cycloid, Tautochrone
+
+if TYPE_CHECKING:
+    from reference.problem import Problem, Row
+
+__all__ = ["BRACHISTOCHRONE", "LAYOUTS", "TAUTOCHRONE", "core", "full"]
+
+GRAVITY = Coordinate("g", "m s-2", "acceleration of gravity")
+END_X = Coordinate("end_x", "m", "horizontal distance to the end point")
+END_Y = Coordinate("end_y", "m", "depth of the end point below the start")
+FRACTION = Coordinate("fraction", "1", "fraction of the descent time, and of the angle that the circle turns")
+EPSILON = Coordinate("epsilon", "1", "size of the neighbouring curve's deviation")
+START_ANGLE = Coordinate("start_angle", "rad", "angle of the start, from the bottom")
+TIME = Coordinate("time", "s", "time since the release")
+RADIUS = Coordinate("radius", "m", "radius of the rolling circle")
+
+
+def rows(problem: type[Problem], *names: str) -> tuple[Row, ...]:
+    """The problem's rows of these names, in this order."""
+    found = {row.name: row for row in problem.rows}
+    return tuple(found[name] for name in names)
+
+
+def swing(start_angle: float, radius: float, g: float) -> Tautochrone:
+    """The pendulum on the cycloid, released from rest."""
+    return Tautochrone(start_angle, radius, g)
+
+
+BRACHISTOCHRONE = Layout(
+    "/cycloid/brachistochrone",
+    "curve of quickest descent from rest to an end point",
+    (END_X, END_Y),
+    {"fraction": FRACTION, "epsilon": EPSILON},
+    (GRAVITY,),
+    rows(
+        Cycloid,
+        "curve",
+        "radius",
+        "end_angle",
+        "descent_time",
+        "arc_length",
+        "chord_time",
+        "chord_gap",
+        "neighbour_gap",
+    ),
+    Cycloid,
+    "Johann Bernoulli, Acta Eruditorum, May 1697, 206; C. Huygens, Horologium Oscillatorium, 1673",
+    "the least time of a bead that slides from rest at (0, 0) to (end_x, end_y), y downward, ds/dt = sqrt(2 g y)",
+    "average for end points of like coordinates; higher where one is a billionth of the other; as an equation dx/dy "
+    "singular at the start and at the lowest point",
+)
+TAUTOCHRONE = Layout(
+    "/cycloid/tautochrone",
+    "Huygens' pendulum: a bead swinging on an inverted cycloid",
+    (START_ANGLE,),
+    {"time": TIME},
+    (RADIUS, GRAVITY),
+    rows(Tautochrone, "state", "position", "descent_time", "period", "energy"),
+    swing,
+    "C. Huygens, Horologium Oscillatorium, 1673, part II, proposition 25",
+    "(1 + cos(theta)) theta'' - sin(theta) theta'^2/2 + (g/(2 R)) sin(theta) = 0, at rest at start_angle",
+    "lower in the arc length, whose motion is harmonic; higher in the angle, whose equation is singular at pi",
+)
+LAYOUTS = (BRACHISTOCHRONE, TAUTOCHRONE)
+
+EARTH = {"g": 9.81}
+RATIOS = (1e-9, 1e-6, 1e-3, 0.1, 0.5, 1.0, math.pi / 2, 2.0, 5.0, 10.0, 1e3, 1e6, 1e9)
+ANGLES = (0.001, 0.1, 0.5, 1.0, 1.5, 2.0, 2.5, 3.0, 3.13, math.pi - 1e-6)
+
+
+def core() -> tuple[Group, ...]:
+    """The grids of the dataset that ships with the package."""
+    epsilon = np.array([-4, 1, 4]) / 8
+    return (
+        Group(
+            BRACHISTOCHRONE,
+            EARTH,
+            {"end_x": RATIOS, "end_y": np.ones(len(RATIOS)), "fraction": np.arange(65) / 64, "epsilon": epsilon},
+        ),
+        Group(TAUTOCHRONE, {"radius": 1.0, **EARTH}, {"start_angle": ANGLES, "time": np.arange(401) / 100}),
+    )
+
+
+def full() -> tuple[Group, ...]:
+    """The same groups with finer and larger grids, as far as they are proven within hours on two cores."""
+    ratios = np.unique(np.concatenate([RATIOS, np.arange(1, 129) / 16]))
+    angles = np.unique(np.concatenate([ANGLES, np.arange(1, 101) / 32]))
+    epsilon = np.delete(np.arange(-8, 9) / 16, 8)
+    return (
+        Group(
+            BRACHISTOCHRONE,
+            EARTH,
+            {"end_x": ratios, "end_y": np.ones(ratios.size), "fraction": np.arange(1025) / 1024, "epsilon": epsilon},
+        ),
+        Group(TAUTOCHRONE, {"radius": 1.0, **EARTH}, {"start_angle": angles, "time": np.arange(4001) / 1000}),
+    )
