@@ -1,98 +1,35 @@
-"""The routes against each other, and the certified number that comes of it.
-
-The enclosure decides every digit.  The other routes must agree with it: to REQUIRED_DIGITS digits of the size that
-the quantity has over the arguments at hand, or everything stops.
-"""
+"""A certified number: as a float, as limbs, as decimals and in a format string, every digit of each proven."""
 
 from __future__ import annotations
 
 import math
+import re
 from dataclasses import dataclass
-from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
-from reference.arithmetic.exact import counted, positive, spelled
+from reference.arithmetic.binary64 import is_subnormal
+from reference.arithmetic.exact import counted, positive
 from reference.arithmetic.limbs import MAX_DIGITS, MAX_LIMBS, decimal, exact_decimal, interval, to_fixed, to_limbs
+from reference.arithmetic.underflow import require_gradual
+from reference.names import short
 from reference.once import cached_property
 from reference.routes import enclosure
+from reference.routes.agreement import ROUTES, agreement
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from reference.declaration import Declared, Quantity
 
-    from flint import arb
+__all__ = ["Certified"]
 
-    from reference.problem import Problem, Quantity, Row
-
-__all__ = ["REQUIRED_DIGITS", "ROUTES", "Agreement", "Certified", "DisagreementError", "agreement"]
-
-REQUIRED_DIGITS = 45
-ROUTE_DIGITS = 60
-FAR = Fraction(10) ** 300
-"""A gap that is larger is as bad."""
-ROUTES = ("taylor", "quadrature")
-"""The routes that are held against the enclosure."""
-
-
-class DisagreementError(ArithmeticError):
-    """Two routes to one number differ: one of them is wrong."""
-
-
-@dataclass(frozen=True)
-class Agreement:
-    """How far one route agrees with the enclosure on one quantity: the least digits over ``checked`` elements."""
-
-    digits: float
-    checked: int
-
-
-def agreement(problem: Problem, row: str, arguments: Sequence[Any], route: str) -> tuple[Agreement, ...] | None:
-    """Compare a route with the enclosure on every argument: one Agreement a quantity, None if it has no such row.
-
-    Digits are -log10(|difference| / scale), with the scale the largest absolute value of the quantity over the
-    arguments: near its zeros a relative error would say nothing about the route.  Over an index each value is its own
-    scale.
-
-    Raises:
-        DisagreementError: fewer than REQUIRED_DIGITS digits agree somewhere.
-    """
-    found = problem.by_route(route, row, arguments, ROUTE_DIGITS)
-    if found is None:
-        return None
-    proven = enclosure.balls(problem, row, arguments, int(ROUTE_DIGITS * 3.33) + 20)
-    asked, results = problem.row(row), []
-    for i, quantity in enumerate(asked.quantities):
-        pairs = [(truth[i], value[i]) for truth, value in zip(proven, found, strict=True)]
-        each = [[pair] for pair in pairs] if asked.over == "index" else [pairs]
-        digits = [found for compared in each for found in _digits(compared)]
-        worst = min(range(len(pairs)), key=digits.__getitem__)
-        if digits[worst] < REQUIRED_DIGITS:
-            truth, value = pairs[worst]
-            raise DisagreementError(
-                f"{quantity.name} of {problem!r} at {_shown(asked, arguments[worst])} is {truth.str(50, radius=False)} "
-                f"by the enclosure and {exact_decimal(value, 50)} by {route}: "
-                f"{digits[worst]:.1f} digits agree where {REQUIRED_DIGITS} must."
-            )
-        results.append(Agreement(math.floor(digits[worst] * 10) / 10, len(pairs)))
-    return tuple(results)
-
-
-def _digits(pairs: Sequence[tuple[arb, Fraction]]) -> list[float]:
-    """The digits of each pair, at most ROUTE_DIGITS, by exact arithmetic on the balls' middles and radii."""
-    balls = [(_point(truth.mid()), _point(truth.rad()), value) for truth, value in pairs]
-    scale = max(abs(middle) + radius for middle, radius, _ in balls) or Fraction(1)
-    gaps = [float(min((abs(middle - value) + radius) / scale, FAR)) for middle, radius, value in balls]
-    return [min(float(ROUTE_DIGITS), -math.log10(gap)) if gap else float(ROUTE_DIGITS) for gap in gaps]
-
-
-def _point(exact: arb) -> Fraction:
-    mantissa, exponent = exact.man_exp()
-    return int(mantissa) * Fraction(2) ** int(exponent)
-
-
-def _shown(row: Row, argument: Any) -> str:
-    if argument is None:
-        return "the given parameters"
-    return f"{row.domain.name} = {spelled(argument)}" if isinstance(argument, Fraction) else f"index {argument}"
+SPEC = re.compile(
+    r"(?:(?P<fill>.)?(?P<align>[<>=^]))?(?P<sign>[-+ ]?)(?P<zero>0?)(?P<width>\d*)"
+    r"(?P<group>[,_]?)\.(?P<precision>\d+)(?P<type>[eEfFgG])",
+    re.DOTALL,
+)
+SIGNED = re.compile(r"((?:.?[<>=^])?[-+ ]?)", re.DOTALL)
+"""What stands before the "z" that takes the sign of a zero away."""
+SMALLEST_PLAIN = -4
+"""The least decimal exponent that "g" writes without an exponent."""
 
 
 @dataclass(frozen=True)
@@ -105,7 +42,7 @@ class Certified:
         TypeError: the argument is no real number.
     """
 
-    problem: Problem
+    problem: Declared
     row: str
     argument: Any = None
     component: int = 0
@@ -176,9 +113,7 @@ class Certified:
 
     def __format__(self, spec: str) -> str:
         """As a float is formatted; with a precision and "e", "f" or "g" every digit shown is proven."""
-        from reference.formatting import formatted
-
-        return formatted(self, spec)
+        return _formatted(self, spec)
 
     @cached_property
     def routes(self) -> dict[str, float]:
@@ -197,3 +132,75 @@ class Certified:
     def __repr__(self) -> str:
         units = "" if self.quantity.units == "1" else f" {self.quantity.units}"
         return f"{self.quantity.name} = {self.digits(17)}{units}"
+
+
+def _formatted(value: Certified, spec: str) -> str:
+    """The number as ``format(float(value), spec)`` would lay it out, but for zeros, which have no sign.
+
+    For "e", "f" and "g" with a precision the digits are the correctly rounded ones of the number itself, however many;
+    anything else formats the nearest double.
+
+    Raises:
+        UnderflowModeError: the nearest double is subnormal, and the processor takes it for zero.
+    """
+    asked = SPEC.fullmatch(spec)
+    if asked is None or (asked["group"] and (asked["zero"] or asked["align"] == "=")):
+        number = float(value)
+        if is_subnormal(number):
+            require_gradual(f"{value.quantity.name} in the format '{short(spec)}'")
+        return format(number, spec if "z" in spec else SIGNED.sub(r"\1z", spec, count=1))
+    precision, kind = int(asked["precision"]), asked["type"].lower()
+    text = {"e": _scientific, "f": _fixed, "g": _general}[kind](value, precision)
+    body = text.removeprefix("-")
+    if asked["group"]:
+        whole = re.match(r"\d+", body)
+        body = format(int(whole[0]), asked["group"]) + body[whole.end() :] if whole else body
+    sign = "-" if text != body and text.startswith("-") else asked["sign"].replace("-", "")
+    body = body.upper() if asked["type"].isupper() else body
+    return _padded(sign, body, asked)
+
+
+def _padded(sign: str, body: str, asked: re.Match[str]) -> str:
+    align = asked["align"] or ("=" if asked["zero"] else ">")
+    fill = asked["fill"] or ("0" if asked["zero"] else " ")
+    missing = max(0, int(asked["width"] or 0) - len(sign) - len(body))
+    before = {"<": 0, ">": missing, "=": missing, "^": missing // 2}[align]
+    if align == "=":
+        return sign + fill * before + body
+    return fill * before + sign + body + fill * (missing - before)
+
+
+def _fixed(value: Certified, places: int) -> str:
+    return value.fixed(places)
+
+
+def _scientific(value: Certified, places: int) -> str:
+    sign, digits, exponent = _parts(value, places + 1)
+    return f"{sign}{_pointed(digits, 1)}e{exponent:+03d}"
+
+
+def _general(value: Certified, precision: int) -> str:
+    count = max(1, precision)
+    sign, digits, exponent = _parts(value, count)
+    kept = digits.rstrip("0") or "0"
+    if not SMALLEST_PLAIN <= exponent < count:
+        return f"{sign}{_pointed(kept, 1)}e{exponent:+03d}"
+    if exponent < 0:
+        return f"{sign}0.{'0' * (-exponent - 1)}{kept}"
+    return sign + _pointed(kept.ljust(exponent + 1, "0"), exponent + 1)
+
+
+def _pointed(digits: str, whole: int) -> str:
+    return f"{digits[:whole]}.{digits[whole:]}" if len(digits) > whole else digits
+
+
+def _parts(value: Certified, count: int) -> tuple[str, str, int]:
+    """Sign, ``count`` significant digits and the exponent of the first of them."""
+    text = value.digits(count)
+    mantissa, _, written = text.removeprefix("-").partition("e")
+    whole, _, rest = mantissa.partition(".")
+    digits = (whole + rest).lstrip("0")
+    if not digits:
+        return "", "0" * count, 0
+    exponent = len(whole) - 1 if whole != "0" else len(digits) - len(rest) - 1
+    return "-" if text.startswith("-") else "", digits, exponent + int(written or 0)

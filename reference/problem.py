@@ -1,16 +1,10 @@
-"""What a problem is: frozen data, its equations, and the names of what can be asked of it.
-
-A problem's *rows* are the things that are computed together: one number for the whole motion (a period), one per
-index (the zero crossings) or a tuple per time, angle or fraction of the way (the state).  Each route is a *solution*,
-an object that answers every row it serves; the closed form in balls, in mpmath, and heyoka's Taylor method differ in
-nothing else.
-"""
+"""What a problem is: frozen data, its equations, and the values that can be asked of it."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import TYPE_CHECKING, Any, ClassVar, Protocol
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
@@ -25,11 +19,12 @@ from reference.routes import enclosure, quadrature
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
-    from reference.arithmetic.namespaces import Arithmetic
+    from reference.arithmetic.protocols import Arithmetic
     from reference.constants import Constant
+    from reference.declaration import ClosedForm, Row, Solution
     from reference.row_domains import Domain
 
-__all__ = ["APART", "ClosedForm", "Problem", "Quantity", "Row", "SeparableProblem", "Solution"]
+__all__ = ["APART", "Problem", "SeparableProblem"]
 
 TAYLOR_BITS = 1024
 """The Taylor route serves what needs at most this working precision."""
@@ -37,55 +32,6 @@ APART = Fraction(1, 1 << 36)
 """By such a part a neighbour begins elsewhere: far enough for other roundings, too near for other truncation errors."""
 ROUTE_BITS = 8192
 """No route but the enclosure serves what needs more working precision than this."""
-
-
-@dataclass(frozen=True)
-class Quantity:
-    """A named number with its units and its defining equation in one line."""
-
-    name: str
-    units: str
-    long_name: str
-    definition: str
-
-
-@dataclass(frozen=True)
-class Row:
-    """Quantities that are computed together, and what they are a function of.
-
-    ``domain`` says which arguments the row takes; ``lacks`` pairs each route that cannot give the row with the reason;
-    ``max_bits`` is the working precision at which a proof is given up, lower where the row takes an integral.
-    """
-
-    name: str
-    quantities: tuple[Quantity, ...]
-    domain: Domain
-    lacks: tuple[tuple[str, str], ...] = ()
-    max_bits: int = MAX_BITS
-
-    @property
-    def over(self) -> str:
-        """What the row is a function of: "once", "index" or the name of an exact real, such as "time"."""
-        return self.domain.over
-
-
-class Solution(Protocol):
-    """One route to the truth about one problem."""
-
-    def rows(self, row: str, arguments: Sequence[Any]) -> list[tuple[Any, ...]]:
-        """The values of a row at each of its arguments: exact times, indices, or one None."""
-
-
-class ClosedForm:
-    """A solution that writes each row as an attribute or method of its name, in the arithmetic ``m``."""
-
-    m: Any
-
-    def rows(self, row: str, arguments: Sequence[Any]) -> list[tuple[Any, ...]]:
-        if list(arguments) == [None]:
-            return [(getattr(self, row),)]
-        values = (getattr(self, row)(self.m.number(a) if isinstance(a, Fraction) else a) for a in arguments)
-        return [value if isinstance(value, tuple) else (value,) for value in values]
 
 
 @dataclass(frozen=True)

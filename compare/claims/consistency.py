@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
     from compare.claims.candidate import Candidate
     from compare.claims.courses import Marcher
-    from reference.arithmetic.namespaces import Arithmetic
+    from reference.arithmetic.protocols import Arithmetic
 
 __all__ = ["advance_of_a_constant_slope", "iterates", "uses"]
 

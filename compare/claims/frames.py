@@ -20,7 +20,7 @@ from reference.once import cached_property
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from reference.arithmetic.namespaces import Arithmetic
+    from reference.arithmetic.protocols import Arithmetic
     from reference.problem import SeparableProblem
 
 __all__ = ["Frame", "Scene", "scale_of_time"]

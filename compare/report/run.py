@@ -20,9 +20,9 @@ from compare.study import fits, named, some
 from reference import __version__
 from reference.arithmetic.compiler import hy
 from reference.arithmetic.exact import positive
-from reference.certified import ROUTES
 from reference.command.executors import opened, results
 from reference.dataset.partial import partial
+from reference.routes.agreement import ROUTES
 
 if TYPE_CHECKING:
     import os

@@ -17,7 +17,7 @@ from compare.solvers.solver import Question
 from compare.study import some
 from reference import Pendulum, __version__
 from reference.arithmetic.exact import as_number, exact, positive
-from reference.certified import ROUTES
+from reference.routes.agreement import ROUTES
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence

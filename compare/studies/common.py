@@ -15,9 +15,9 @@ from compare.study import fits, score_all
 from reference import __version__
 from reference.arithmetic.compiler import hy
 from reference.arithmetic.exact import as_number, exact
-from reference.certified import ROUTES
 from reference.names import unknown
 from reference.problem import Problem
+from reference.routes.agreement import ROUTES
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING, Any
 
 from flint import acb, arb
 
+from reference.arithmetic import quadrature
 from reference.arithmetic.dual import with_slope
 from reference.arithmetic.precision import ctx, mp
-from reference.routes import quadrature
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from reference.arithmetic.namespaces import EllipticArithmetic
+    from reference.arithmetic.protocols import EllipticArithmetic
 
 __all__ = ["Dual", "DualArithmetic", "with_slope"]
 

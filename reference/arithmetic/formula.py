@@ -23,7 +23,7 @@ from reference.names import short, unknown
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from reference.arithmetic.namespaces import ElementaryArithmetic
+    from reference.arithmetic.protocols import ElementaryArithmetic
 
 __all__ = ["FUNCTIONS", "MAX_LENGTH", "Expression"]
 

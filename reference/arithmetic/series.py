@@ -19,7 +19,7 @@ from reference.once import cached_property
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Sequence
 
-    from reference.arithmetic.namespaces import ElementaryArithmetic
+    from reference.arithmetic.protocols import ElementaryArithmetic
 
 __all__ = ["Series", "SeriesArithmetic", "jet"]
 

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
     from fractions import Fraction
 
-    from reference.arithmetic.namespaces import ElementaryArithmetic
+    from reference.arithmetic.protocols import ElementaryArithmetic
 
 __all__ = ["Function", "Negative", "Number", "Operation", "Pi", "Power", "Term", "Variable"]
 

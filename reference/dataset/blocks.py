@@ -11,9 +11,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from reference.arithmetic.limbs import to_limbs
-from reference.certified import ROUTES, agreement
 from reference.dataset.claims import DECIMAL_DIGITS
 from reference.routes import enclosure
+from reference.routes.agreement import ROUTES, agreement
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

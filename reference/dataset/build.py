@@ -16,7 +16,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import reference
-from reference.certified import ROUTES
 from reference.command.executors import opened, results
 from reference.dataset import DatasetError
 from reference.dataset.blocks import Result, compute
@@ -27,6 +26,7 @@ from reference.dataset.partial import PlaceError, partial, place_of
 from reference.dataset.writer import writing
 from reference.names import is_grid_file, unknown
 from reference.problems.catalogue import PROFILES
+from reference.routes.agreement import ROUTES
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
@@ -34,7 +34,7 @@ if TYPE_CHECKING:
     from reference.dataset.partial import Partial
     from reference.dataset.plan import Plan
     from reference.dataset.writer import Writer
-    from reference.problem import Row
+    from reference.declaration import Row
 
 __all__ = ["build", "provenance"]
 

@@ -14,8 +14,8 @@ from fractions import Fraction
 from typing import TYPE_CHECKING
 
 from reference.arithmetic.limbs import exact_decimal
-from reference.certified import REQUIRED_DIGITS, ROUTE_DIGITS, ROUTES
 from reference.names import short
+from reference.routes.agreement import REQUIRED_DIGITS, ROUTE_DIGITS, ROUTES
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Mapping, Sequence
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     import numpy as np
 
     from reference.dataset import Variable
-    from reference.problem import Row
+    from reference.declaration import Row
 
 __all__ = ["DECIMAL_DIGITS", "attributes", "decimal_fault", "free_attributes", "limbs_fault", "measurement_fault"]
 

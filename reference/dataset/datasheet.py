@@ -7,9 +7,9 @@ from fractions import Fraction
 from typing import TYPE_CHECKING
 
 from reference.arithmetic.exact import expansion
-from reference.certified import REQUIRED_DIGITS
 from reference.dataset.cite import cite
 from reference.names import printable, unknown
+from reference.routes.agreement import REQUIRED_DIGITS
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence

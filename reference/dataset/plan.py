@@ -21,7 +21,8 @@ from reference.once import cached_property
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping
 
-    from reference.problem import Problem, Quantity, Row
+    from reference.declaration import Quantity, Row
+    from reference.problem import Problem
 
 __all__ = ["BLOCK_LENGTH", "Block", "Component", "Coordinate", "Group", "Layout", "Plan", "monotonic"]
 

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping, Sequence
 
     from reference.dataset.plan import Component, Coordinate, Layout
-    from reference.problem import Row
+    from reference.declaration import Row
 
 __all__ = [
     "ATTRIBUTE_LIMIT",

@@ -9,13 +9,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from reference.arithmetic.binary64 import shortest, unsigned_zeros
-from reference.certified import ROUTES, DisagreementError
 from reference.command.executors import opened, results
 from reference.dataset import DatasetError, load
 from reference.dataset.blocks import LIMBS, START_BITS, compare, decimals, prove
 from reference.dataset.claims import decimal_fault, measurement_fault
 from reference.dataset.plan import Group
 from reference.dataset.schema import ATTRIBUTE_LIMIT
+from reference.routes.agreement import ROUTES, DisagreementError
 
 if TYPE_CHECKING:
     import os
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
     from reference.dataset import Dataset
     from reference.dataset.plan import Block
-    from reference.problem import Row
+    from reference.declaration import Row
 
 __all__ = ["Proof", "differs", "verify"]
 

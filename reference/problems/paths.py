@@ -12,8 +12,9 @@ from fractions import Fraction
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from reference.arithmetic.exact import as_number, exact
+from reference.declaration import ClosedForm, Quantity, Row
 from reference.once import cached_property
-from reference.problem import APART, ClosedForm, Problem, Quantity, Row
+from reference.problem import APART, Problem
 from reference.problems.cycloid.arc import CycloidArc
 from reference.problems.polar import PolarBrachistochrone
 from reference.problems.polar.equations import POINT_MASS
@@ -22,7 +23,7 @@ from reference.row_domains import Reals
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
-    from reference.arithmetic.namespaces import Arithmetic
+    from reference.arithmetic.protocols import Arithmetic
     from reference.row_domains import Domain
 
 __all__ = ["CycloidCurve", "PolarByPsi", "PolarByZ"]

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
     from fractions import Fraction
 
-    from reference.problem import Problem, Solution
+    from reference.declaration import Declared, Solution
 
 __all__ = ["balls", "decide"]
 
@@ -25,7 +25,7 @@ Answer = TypeVar("Answer")
 
 
 def decide(
-    problem: Problem,
+    problem: Declared,
     row: str,
     arguments: Sequence[Any],
     of_ball: Callable[[arb], Answer | None],
@@ -94,7 +94,7 @@ def _known(rational: Sequence[Fraction | None] | None, balls: Sequence[arb]) -> 
     return [ball if value is None else value for value, ball in zip(rational, balls, strict=True)]
 
 
-def balls(problem: Problem, row: str, arguments: Sequence[Any], bits: int) -> list[tuple[arb, ...]]:
+def balls(problem: Declared, row: str, arguments: Sequence[Any], bits: int) -> list[tuple[arb, ...]]:
     """Return the balls of a row at ``bits`` bits of relative accuracy; an exact value is a point."""
 
     def accurate(ball: arb) -> arb | None:

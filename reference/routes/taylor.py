@@ -16,7 +16,7 @@ from reference.once import cached_property
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
-    from reference.problem import Problem
+    from reference.declaration import Equation
 
 __all__ = ["Flow", "to_fraction"]
 
@@ -32,7 +32,7 @@ class Flow:
     Raises ArithmeticError where heyoka does not reach the end of the grid.
     """
 
-    def __init__(self, problem: Problem, bits: int) -> None:
+    def __init__(self, problem: Equation, bits: int) -> None:
         from reference.arithmetic.compiler import hy
 
         self._hy = hy

@@ -13,7 +13,6 @@ import pytest
 from plans import TINY, leftovers
 
 import reference
-from reference.certified import Agreement
 from reference.dataset import build as building
 from reference.dataset import load
 from reference.dataset.blocks import spread
@@ -22,6 +21,7 @@ from reference.dataset.checksums import note_checksum
 from reference.dataset.plan import BLOCK_LENGTH, Group, Plan
 from reference.problems import catalogue
 from reference.problems.pendulum import family as groups
+from reference.routes.agreement import Agreement
 
 ROOT = Path(reference.__file__).parents[1]
 

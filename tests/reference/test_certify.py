@@ -11,7 +11,7 @@ from independent import correct_limbs, fraction
 from reference import Certified, Descent, Pendulum, PolarBrachistochrone
 from reference.arithmetic.limbs import WorkBoundError
 from reference.arithmetic.precision import mp
-from reference.certified import DisagreementError, agreement
+from reference.routes.agreement import DisagreementError, agreement
 
 
 def period_to(bits: int):

@@ -16,10 +16,10 @@ from independent_cycloid import Descent, number
 from reference.arithmetic.limbs import WorkBoundError
 from reference.arithmetic.namespaces import BALL, MPMATH, NUMPY, Heyoka
 from reference.arithmetic.precision import ctx, mp
-from reference.certified import ROUTES, agreement
 from reference.problems.cycloid import Cycloid, CycloidArc
 from reference.problems.cycloid.equations import arc_acceleration, arc_energy, depth, point_below_cusp, run
 from reference.problems.cycloid.neighbours import excess, slowness
+from reference.routes.agreement import ROUTES, agreement
 
 BITS = 3 * 159
 EXACT_PI = "3.14159265358979323846264338327950288419716939937510582097494459230781640628620899862803"

@@ -13,8 +13,8 @@ from independent_descent import arc_length, passage, place
 from reference.arithmetic.limbs import WorkBoundError
 from reference.arithmetic.namespaces import NUMPY
 from reference.arithmetic.precision import mp
-from reference.certified import agreement
 from reference.problems.descent import RACE, Descent
+from reference.routes.agreement import agreement
 
 NAMES = [curve.name for curve in RACE]
 ANGLE = ("x = pi - p + sin(p); y = 1 + cos(p)", 0, "pi")

@@ -12,8 +12,8 @@ from independent import correct_limbs, fraction, general_state
 
 from reference import Pendulum
 from reference.arithmetic.precision import mp
-from reference.certified import agreement
 from reference.problems.pendulum.quantities import SERVED
+from reference.routes.agreement import agreement
 
 STARTS = {
     "release": [(1.0, None), (-1.0, 0), (3.0, 0)],

@@ -13,8 +13,8 @@ from independent import correct_limbs, fraction
 from reference import Pendulum
 from reference.arithmetic.namespaces import MPMATH
 from reference.arithmetic.precision import mp
-from reference.certified import agreement
 from reference.problems.pendulum import LinearPendulum
+from reference.routes.agreement import agreement
 
 PENDULUMS = (
     LinearPendulum(1.0),

@@ -12,7 +12,7 @@ from independent import agm_period, condition_number, correct_limbs, fraction, r
 
 from reference import Pendulum
 from reference.arithmetic.precision import mp
-from reference.certified import agreement
+from reference.routes.agreement import agreement
 
 BITS = 3 * 159 + 100
 TIMES = [0.7, 3.1, 9.5]

@@ -12,8 +12,8 @@ from independent import agm_period, correct_limbs, fraction, released_state
 from reference import Pendulum
 from reference.arithmetic.namespaces import MPMATH
 from reference.arithmetic.precision import mp
-from reference.certified import agreement
 from reference.problems.pendulum import LindstedtMotion, PendulumSeries, contour, series
+from reference.routes.agreement import agreement
 
 ORDERS = (0, 1, 2, 5, 8)
 AMPLITUDES = (0.001, 0.301, 1.0, 2.5)

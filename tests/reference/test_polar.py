@@ -16,10 +16,10 @@ from independent_polar import BITS, Amplitude, ball, complete
 from reference.arithmetic.limbs import WorkBoundError
 from reference.arithmetic.namespaces import BALL, MPMATH, NUMPY, Heyoka
 from reference.arithmetic.precision import ctx, mp
-from reference.certified import agreement
 from reference.problems.polar import PolarBrachistochrone
 from reference.problems.polar.equations import POINT_MASS
 from reference.problems.polar.series import surface_coefficients
+from reference.routes.agreement import agreement
 
 ARGUMENTS = {
     "once": [None],

@@ -11,10 +11,11 @@ from hypothesis import strategies as st
 from independent import fraction, mpmath_states
 
 from reference import Pendulum
+from reference.arithmetic import quadrature
 from reference.arithmetic.limbs import interval
 from reference.arithmetic.precision import ctx, mp
-from reference.certified import REQUIRED_DIGITS, ROUTES, agreement
-from reference.routes import enclosure, quadrature, taylor
+from reference.routes import enclosure, taylor
+from reference.routes.agreement import REQUIRED_DIGITS, ROUTES, agreement
 
 ROWS_OF_TIME = ("state", "sensitivity")
 ROWS_OF_ONE = ("period", "energy", "modulus", "complementary_modulus", "dperiod_damplitude")

@@ -15,9 +15,9 @@ from independent_cycloid import number, swing
 
 from reference.arithmetic.namespaces import MPMATH, NUMPY, Heyoka
 from reference.arithmetic.precision import mp
-from reference.certified import ROUTES, agreement
 from reference.problems.cycloid import Cycloid, CycloidalPendulum, Tautochrone
 from reference.problems.cycloid.equations import angular_acceleration, arc_energy, swing_energy
+from reference.routes.agreement import ROUTES, agreement
 
 BITS = 3 * 159
 STARTS = (1.0, 3.13, -2.5, 0.001)

@@ -14,10 +14,10 @@ from independent_polar import BITS, number, rolled
 
 from reference.arithmetic.namespaces import MPMATH, NUMPY, Heyoka
 from reference.arithmetic.precision import mp
-from reference.certified import agreement
 from reference.problems.polar import PolarBrachistochrone
 from reference.problems.tunnel import Tunnel
 from reference.problems.tunnel.equations import UNIFORM_BALL
+from reference.routes.agreement import agreement
 
 ARGUMENTS = {
     "once": [None],

@@ -8,7 +8,6 @@ import h5py
 import numpy as np
 import pytest
 
-from reference.certified import DisagreementError
 from reference.dataset import DatasetError, load
 from reference.dataset.build import build
 from reference.dataset.content import fingerprint
@@ -16,6 +15,7 @@ from reference.dataset.plan import Group, Plan
 from reference.dataset.schema import exact_texts
 from reference.dataset.verify import differs, verify
 from reference.problems.pendulum import family as groups
+from reference.routes.agreement import DisagreementError
 
 TINY = Plan(
     "core",

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 
     from compare.sources.published.number import Number
     from compare.sources.published.source import Column, Table
-    from reference.arithmetic.namespaces import Arithmetic
+    from reference.arithmetic.protocols import Arithmetic
     from reference.problem import Problem
 
 __all__ = ["EXACT", "REPRODUCED", "CycloidByAngle", "Form", "forms"]

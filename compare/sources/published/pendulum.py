@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
     from compare.sources.published.number import Number
     from compare.sources.published.source import Column, Table
-    from reference.arithmetic.namespaces import ElementaryArithmetic
+    from reference.arithmetic.protocols import ElementaryArithmetic
 
 __all__ = ["EXACT", "REPRODUCED", "expansion"]
 

@@ -6,18 +6,20 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any, ClassVar
 
+from reference.arithmetic import quadrature
 from reference.arithmetic.exact import as_number, exact
-from reference.arithmetic.namespaces import MPMATH, Arithmetic, EllipticArithmetic
+from reference.arithmetic.namespaces import MPMATH
 from reference.arithmetic.precision import mp
-from reference.problem import ClosedForm, Problem, Row
+from reference.declaration import ClosedForm, Row
+from reference.problem import Problem
 from reference.problems.cycloid.equations import point_below_cusp, run
 from reference.problems.cycloid.quantities import CURVE_ROWS, HEIGHT, exponent, positive_number
 from reference.problems.cycloid.taylor import TaylorArc
-from reference.routes import quadrature
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from reference.arithmetic.protocols import Arithmetic, EllipticArithmetic
     from reference.row_domains import Domain
 
 __all__ = ["CycloidArc"]

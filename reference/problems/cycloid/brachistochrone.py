@@ -14,16 +14,16 @@ from __future__ import annotations
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
+from reference.arithmetic import quadrature
 from reference.arithmetic.precision import mp
-from reference.problem import ClosedForm
+from reference.declaration import ClosedForm
 from reference.problems.cycloid.equations import arc_frequency, point_below_cusp
 from reference.problems.cycloid.neighbours import excess, slowness
-from reference.routes import quadrature
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from reference.arithmetic.namespaces import CalculusArithmetic
+    from reference.arithmetic.protocols import CalculusArithmetic
 
 __all__ = ["Brachistochrone", "QuadratureBrachistochrone"]
 

@@ -11,7 +11,8 @@ from reference.dataset.plan import Coordinate, Group, Layout
 from reference.problems.cycloid import Cycloid, Tautochrone
 
 if TYPE_CHECKING:
-    from reference.problem import Problem, Row
+    from reference.declaration import Row
+    from reference.problem import Problem
 
 __all__ = ["BRACHISTOCHRONE", "LAYOUTS", "TAUTOCHRONE", "core", "full"]
 

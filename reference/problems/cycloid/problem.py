@@ -8,22 +8,24 @@ from fractions import Fraction
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from reference.arithmetic.exact import as_number, exact, rational_root
-from reference.arithmetic.namespaces import MPMATH, Arithmetic, CalculusArithmetic
+from reference.arithmetic.namespaces import MPMATH
 from reference.arithmetic.precision import mp
+from reference.arithmetic.quadrature import to_fraction
 from reference.once import cached_property
-from reference.problem import APART, Row, SeparableProblem
+from reference.problem import APART, SeparableProblem
 from reference.problems.cycloid.brachistochrone import Brachistochrone, QuadratureBrachistochrone
 from reference.problems.cycloid.equations import arc_acceleration, arc_energy
 from reference.problems.cycloid.quantities import DESCENT_ROWS, exponent, positive_number
 from reference.problems.cycloid.taylor import TaylorBrachistochrone
-from reference.routes.quadrature import to_fraction
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
     import numpy as np
 
+    from reference.arithmetic.protocols import Arithmetic, CalculusArithmetic
     from reference.certified import Certified
+    from reference.declaration import Row
 
 __all__ = ["Cycloid"]
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from fractions import Fraction
 
 from reference.arithmetic.exact import as_number
-from reference.problem import Quantity, Row
+from reference.declaration import Quantity, Row
 from reference.row_domains import ANGLE, FRACTION, ONCE, TIME, Reals
 
 __all__ = ["CURVE_ROWS", "DESCENT_ROWS", "HEIGHT", "PENDULUM_ROWS", "SWING_ROWS", "exponent", "positive_number"]

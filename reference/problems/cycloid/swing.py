@@ -12,13 +12,13 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from reference.arithmetic import quadrature
 from reference.arithmetic.precision import mp
-from reference.problem import ClosedForm
+from reference.declaration import ClosedForm
 from reference.problems.cycloid.equations import arc_energy, arc_frequency, point_from_bottom, swing_energy
-from reference.routes import quadrature
 
 if TYPE_CHECKING:
-    from reference.arithmetic.namespaces import EllipticArithmetic
+    from reference.arithmetic.protocols import EllipticArithmetic
 
 __all__ = ["ArcSwing", "QuadratureArcSwing", "QuadratureSwing", "Swing"]
 

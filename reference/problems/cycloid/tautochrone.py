@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 from reference.arithmetic.exact import as_number, exact
 from reference.arithmetic.limbs import Interval, interval, ziv
-from reference.arithmetic.namespaces import BALL, MPMATH, Arithmetic, EllipticArithmetic
+from reference.arithmetic.namespaces import BALL, MPMATH
 from reference.arithmetic.precision import mp
 from reference.once import cached_property
-from reference.problem import APART, Problem, Row, SeparableProblem
+from reference.problem import APART, Problem, SeparableProblem
 from reference.problems.cycloid.equations import (
     angular_acceleration,
     arc_acceleration,
@@ -28,7 +28,9 @@ if TYPE_CHECKING:
 
     from flint import arb
 
+    from reference.arithmetic.protocols import Arithmetic, EllipticArithmetic
     from reference.certified import Certified
+    from reference.declaration import Row
 
 __all__ = ["CycloidalPendulum", "Swinging", "Tautochrone"]
 

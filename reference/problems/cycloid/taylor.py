@@ -9,16 +9,16 @@ from typing import TYPE_CHECKING, Any
 
 from reference.arithmetic.namespaces import MPMATH
 from reference.arithmetic.precision import mp
+from reference.arithmetic.quadrature import to_fraction
 from reference.once import cached_property
 from reference.problems.cycloid.equations import arc_acceleration, depth, point_from_bottom
 from reference.problems.cycloid.neighbours import slowness
-from reference.routes.quadrature import to_fraction
 from reference.routes.taylor import Flow
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
-    from reference.arithmetic.namespaces import Arithmetic
+    from reference.arithmetic.protocols import Arithmetic
     from reference.problems.cycloid.arc import CycloidArc
     from reference.problems.cycloid.problem import Cycloid
     from reference.problems.cycloid.tautochrone import Swinging
@@ -151,7 +151,7 @@ class TaylorBrachistochrone:
         return [(self._descent_time * (MPMATH.number(mean) - 1),) for mean in means]
 
     def _flow_of(self, system: System) -> Flow:
-        return Flow(system, self._bits)  # type: ignore[arg-type]
+        return Flow(system, self._bits)
 
 
 class TaylorArc:
@@ -159,7 +159,7 @@ class TaylorArc:
 
     def __init__(self, problem: CycloidArc, bits: int) -> None:
         self._radius = MPMATH.number(problem.radius)
-        self._flow = Flow(BEAD, bits)  # type: ignore[arg-type]
+        self._flow = Flow(BEAD, bits)
 
     def rows(self, row: str, arguments: Sequence[Fraction]) -> Rows:
         numbers = [MPMATH.number(argument) for argument in arguments]

@@ -21,7 +21,7 @@ from reference.problems.descent.equations import acceleration
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from reference.arithmetic.namespaces import ElementaryArithmetic
+    from reference.arithmetic.protocols import ElementaryArithmetic
 
 __all__ = ["CYCLOID", "RACE", "Curve", "CycloidByArc", "FormulaCurve", "lagrange", "spelled_curve"]
 

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 from reference.arithmetic.balls import BALL
 from reference.arithmetic.namespaces import MPMATH
 from reference.arithmetic.precision import ctx, mp
-from reference.problem import ClosedForm
+from reference.declaration import ClosedForm
 from reference.problems.descent.chebyshev import chebyshev_clock
 from reference.problems.descent.clock import arc, clock
 from reference.problems.descent.equations import speed

@@ -14,7 +14,7 @@ from reference.arithmetic.namespaces import NUMPY
 from reference.arithmetic.precision import ctx
 from reference.names import said, short
 from reference.once import cached_property
-from reference.problem import APART, ClosedForm, Problem, Row
+from reference.problem import APART, Problem
 from reference.problems.descent.admission import admitted
 from reference.problems.descent.curves import Curve, CycloidByArc, lagrange, spelled_curve
 from reference.problems.descent.equations import energy
@@ -30,6 +30,7 @@ if TYPE_CHECKING:
     from flint import arb
 
     from reference.certified import Certified
+    from reference.declaration import ClosedForm, Row
     from reference.problems.descent.slide import Slide
 
 __all__ = ["Descent"]

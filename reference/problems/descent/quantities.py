@@ -2,7 +2,7 @@
 
 from fractions import Fraction
 
-from reference.problem import Quantity, Row
+from reference.declaration import Quantity, Row
 from reference.row_domains import FRACTION, ONCE, Reals
 
 __all__ = ["ROWS"]

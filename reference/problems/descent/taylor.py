@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING, Any
 
 from reference.arithmetic.namespaces import MPMATH
 from reference.arithmetic.precision import mp
+from reference.arithmetic.quadrature import to_fraction
 from reference.problems.descent.chebyshev import chebyshev_clock
 from reference.problems.descent.curves import Curve, lagrange
-from reference.routes.quadrature import to_fraction
 from reference.routes.taylor import Flow
 
 if TYPE_CHECKING:

@@ -15,8 +15,8 @@ from functools import lru_cache, partial
 from typing import TYPE_CHECKING, Any
 
 from reference.arithmetic.precision import mp
+from reference.arithmetic.quadrature import to_fraction
 from reference.problems.pendulum.series import Lindstedt
-from reference.routes.quadrature import to_fraction
 
 if TYPE_CHECKING:
     from collections.abc import Callable

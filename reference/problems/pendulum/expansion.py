@@ -6,20 +6,21 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any, ClassVar
 
+from reference.arithmetic import quadrature
 from reference.arithmetic.exact import as_number, exact
 from reference.arithmetic.namespaces import MPMATH
+from reference.declaration import ClosedForm, Row
 from reference.once import cached_property
-from reference.problem import ClosedForm, Problem, Row
+from reference.problem import Problem
 from reference.problems.pendulum import contour, series
 from reference.problems.pendulum.problem import Pendulum
 from reference.problems.pendulum.quantities import LINDSTEDT_ROWS, SERIES_ROWS
-from reference.routes import quadrature
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from reference.arithmetic.namespaces import EllipticArithmetic
-    from reference.problem import Solution
+    from reference.arithmetic.protocols import EllipticArithmetic
+    from reference.declaration import Solution
 
 __all__ = ["LindstedtMotion", "PendulumSeries"]
 

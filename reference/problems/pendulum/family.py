@@ -12,7 +12,8 @@ from reference.problems.pendulum import LinearPendulum, Pendulum, PendulumSeries
 from reference.problems.pendulum.quantities import SERVED
 
 if TYPE_CHECKING:
-    from reference.problem import Problem, Row
+    from reference.declaration import Row
+    from reference.problem import Problem
 
 __all__ = [
     "DIMENSIONLESS",

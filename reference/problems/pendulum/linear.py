@@ -6,22 +6,24 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any, ClassVar
 
+from reference.arithmetic import quadrature
 from reference.arithmetic.exact import as_number, exact
 from reference.arithmetic.limbs import BINARY64_BITS
-from reference.arithmetic.namespaces import MPMATH, Arithmetic, EllipticArithmetic
+from reference.arithmetic.namespaces import MPMATH
 from reference.arithmetic.precision import mp
 from reference.once import cached_property
-from reference.problem import APART, Row, SeparableProblem
+from reference.problem import APART, SeparableProblem
 from reference.problems.pendulum.motions import Rest
 from reference.problems.pendulum.quantities import LINEAR_ROWS
 from reference.problems.pendulum.taylor import TAYLOR_RADIANS, hanging
-from reference.routes import quadrature
 from reference.routes.taylor import Flow
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
+    from reference.arithmetic.protocols import Arithmetic, EllipticArithmetic
     from reference.certified import Certified
+    from reference.declaration import Row
 
 __all__ = ["LinearPendulum", "linear_acceleration", "linear_energy"]
 

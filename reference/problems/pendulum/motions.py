@@ -14,14 +14,14 @@ from __future__ import annotations
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
+from reference.arithmetic import quadrature
 from reference.arithmetic.dual import DualArithmetic
 from reference.arithmetic.precision import mp
-from reference.problem import ClosedForm
+from reference.declaration import ClosedForm
 from reference.problems.pendulum.equations import condition, energy
-from reference.routes import quadrature
 
 if TYPE_CHECKING:
-    from reference.arithmetic.namespaces import EllipticArithmetic
+    from reference.arithmetic.protocols import EllipticArithmetic
 
 __all__ = [
     "BY_QUADRATURE",

@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 from reference.arithmetic.exact import as_number, exact
 from reference.arithmetic.limbs import BINARY64_BITS, ziv
-from reference.arithmetic.namespaces import BALL, MPMATH, Arithmetic, EllipticArithmetic
+from reference.arithmetic.namespaces import BALL, MPMATH
 from reference.arithmetic.precision import ctx, mp
 from reference.once import cached_property
-from reference.problem import APART, Row, SeparableProblem
+from reference.problem import APART, SeparableProblem
 from reference.problems.pendulum.chart import MANY, Chart, chart
 from reference.problems.pendulum.equations import angular_acceleration, energy_above_rest
 from reference.problems.pendulum.events import DECISION_BITS, Events, events
@@ -26,7 +26,9 @@ if TYPE_CHECKING:
 
     from flint import arb
 
+    from reference.arithmetic.protocols import Arithmetic, EllipticArithmetic
     from reference.certified import Certified
+    from reference.declaration import Row
     from reference.problems.pendulum.approximations import LindstedtSolution, PeriodSeries
 
 __all__ = ["Pendulum"]

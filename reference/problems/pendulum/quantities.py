@@ -1,6 +1,6 @@
 """What can be asked of the pendulum: names, units and definitions, w = sqrt(g/length) throughout."""
 
-from reference.problem import Quantity, Row
+from reference.declaration import Quantity, Row
 from reference.problems.pendulum.series import MAX_ORDER
 from reference.row_domains import INDEX, ONCE, TIME, Whole
 

@@ -20,7 +20,7 @@ from flint import fmpq, fmpq_poly
 from reference.arithmetic.exact import counted
 
 if TYPE_CHECKING:
-    from reference.arithmetic.namespaces import EllipticArithmetic
+    from reference.arithmetic.protocols import EllipticArithmetic
 
 __all__ = ["Lindstedt", "lindstedt", "period_series", "polynomial"]
 

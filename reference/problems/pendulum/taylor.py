@@ -5,15 +5,15 @@ from __future__ import annotations
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
+from reference.arithmetic import quadrature
 from reference.arithmetic.namespaces import MPMATH
 from reference.problems.pendulum.equations import condition, energy
-from reference.routes import quadrature
 from reference.routes.taylor import Flow
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
-    from reference.arithmetic.namespaces import Arithmetic
+    from reference.arithmetic.protocols import Arithmetic
     from reference.problems.pendulum.problem import Pendulum
 
 __all__ = ["TAYLOR_RADIANS", "TaylorMotion", "hanging"]

@@ -15,7 +15,7 @@ from reference.arithmetic.namespaces import BALL, MPMATH
 from reference.arithmetic.precision import ctx, mp
 from reference.names import said
 from reference.once import cached_property
-from reference.problem import Problem, Row
+from reference.problem import Problem
 from reference.problems.polar.bodies import BODIES
 from reference.problems.polar.boundary import Reached, end_of, exponent_near, lowest_point
 from reference.problems.polar.numerical import Numerical
@@ -26,9 +26,10 @@ from reference.problems.polar.taylor import TaylorExtremal
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from reference.arithmetic.namespaces import Arithmetic
+    from reference.arithmetic.protocols import Arithmetic
     from reference.certified import Certified
     from reference.constants import Constant
+    from reference.declaration import Row
     from reference.problems.polar.extremal import End, Extremal, Field
     from reference.row_domains import Domain
 

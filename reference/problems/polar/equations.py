@@ -15,7 +15,7 @@ from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from reference.arithmetic.namespaces import Arithmetic
+    from reference.arithmetic.protocols import Arithmetic
 
 __all__ = ["POINT_MASS", "PointMass"]
 

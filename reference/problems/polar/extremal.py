@@ -11,8 +11,8 @@ import math
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
+from reference.declaration import ClosedForm
 from reference.once import cached_property
-from reference.problem import ClosedForm
 from reference.problems.polar.optimality import chord_time, neighbour_excess
 from reference.problems.polar.panels import panels_of
 from reference.problems.polar.periodic import periodic_ball
@@ -20,7 +20,7 @@ from reference.problems.polar.periodic import periodic_ball
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
-    from reference.arithmetic.namespaces import Arithmetic
+    from reference.arithmetic.protocols import Arithmetic
 
 __all__ = ["End", "Extremal", "Field"]
 

@@ -11,7 +11,8 @@ from reference.problems.polar import PolarBrachistochrone
 from reference.problems.tunnel import Tunnel
 
 if TYPE_CHECKING:
-    from reference.problem import Problem, Row
+    from reference.declaration import Row
+    from reference.problem import Problem
 
 __all__ = ["BOUNDARY", "FAMILY", "LAYOUTS", "MOTION", "TUNNEL_FAMILY", "TUNNEL_MOTION", "core", "full"]
 

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 from mpmath.calculus.quadrature import GaussLegendre
 
+from reference.arithmetic import quadrature
 from reference.arithmetic.dual import DualArithmetic
 from reference.arithmetic.namespaces import MPMATH
 from reference.arithmetic.precision import mp
@@ -20,7 +21,6 @@ from reference.problems.polar.extremal import Extremal
 from reference.problems.polar.optimality import chord_geometry, neighbour_rates
 from reference.problems.polar.panels import Panels, Schedule, panels_of
 from reference.problems.polar.periodic import periodic_mpmath
-from reference.routes import quadrature
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
     from fractions import Fraction
 
-    from reference.problem import Row
+    from reference.declaration import Row
     from reference.problems.polar.extremal import Field
 
 __all__ = ["PolarBrachistochrone"]

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from fractions import Fraction
 
-from reference.problem import Quantity, Row
+from reference.declaration import Quantity, Row
 from reference.row_domains import ONCE, TIME, Reals
 
 __all__ = ["ROWS", "Definitions", "Z", "rows_of"]

@@ -10,15 +10,15 @@ from typing import TYPE_CHECKING, Any
 
 from reference.arithmetic.namespaces import MPMATH
 from reference.arithmetic.precision import mp
+from reference.arithmetic.quadrature import to_fraction
 from reference.once import cached_property
 from reference.problems.polar.optimality import chord_geometry
-from reference.routes.quadrature import to_fraction
 from reference.routes.taylor import Flow
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
-    from reference.arithmetic.namespaces import Arithmetic
+    from reference.arithmetic.protocols import Arithmetic
     from reference.problems.polar.extremal import Field
     from reference.problems.polar.numerical import Numerical
 
@@ -76,7 +76,7 @@ class TaylorExtremal:
         self._curve = self._flow(equations.curve, ("psi", "phi", "tau"), (ZERO, ZERO, ZERO), z0=z0)
 
     def _flow(self, derivative: Any, names: tuple[str, ...], start: tuple[Fraction, ...], **of: Fraction) -> Flow:
-        return Flow(System(derivative, names, start, of), self._bits)  # type: ignore[arg-type]
+        return Flow(System(derivative, names, start, of), self._bits)
 
     def rows(self, row: str, arguments: Sequence[Any]) -> list[tuple[Fraction, ...]]:
         once: dict[str, Callable[[], Fraction]] = {
