@@ -9,7 +9,7 @@ if TYPE_CHECKING:
     import os
 
     from reference.certified import Certified
-    from reference.dataset import Dataset
+    from reference.dataset.reader import Dataset
     from reference.problems.cycloid import Cycloid, CycloidalPendulum, CycloidArc, Tautochrone
     from reference.problems.descent import Descent
     from reference.problems.pendulum import LinearPendulum, Pendulum
@@ -63,6 +63,6 @@ def load(path: str | os.PathLike[str] | None = None) -> Dataset:
         FileNotFoundError: there is no such file; the message says how to build it.
         DatasetError: a ValueError: the file is truncated, altered, of another schema, or no dataset.
     """
-    from reference.dataset import load as load_checked
+    from reference.dataset.reader import load as load_checked
 
     return load_checked(path)

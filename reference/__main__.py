@@ -134,7 +134,7 @@ def _build(asked: argparse.Namespace) -> int:
 
 def _default_out(profile: str) -> Path:
     """The place of the shipped file for the core profile in a checkout, else the working folder."""
-    from reference.dataset import core_path
+    from reference.dataset.reader import core_path
 
     checkout = Path(__file__).resolve().parents[1]
     if profile == "core" and (checkout / "pyproject.toml").exists() and (checkout / "data").is_dir():
@@ -157,7 +157,7 @@ def _verify(asked: argparse.Namespace) -> int:
 
 
 def _show(asked: argparse.Namespace) -> int:
-    from reference.dataset import load
+    from reference.dataset.reader import load
     from reference.dataset.show import show
 
     for line in show(load(asked.file), asked.path, asked.format):
@@ -166,16 +166,16 @@ def _show(asked: argparse.Namespace) -> int:
 
 
 def _cite(asked: argparse.Namespace) -> int:
-    from reference.dataset import load
     from reference.dataset.cite import cite
+    from reference.dataset.reader import load
 
     print(cite(load(asked.file), asked.format))
     return 0
 
 
 def _datasheet(asked: argparse.Namespace) -> int:
-    from reference.dataset import load
     from reference.dataset.datasheet import datasheet
+    from reference.dataset.reader import load
 
     print(datasheet(load(asked.file), asked.group), end="")
     return 0

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from types import TracebackType
 
     from compare.files.chunk import Chunk
-    from compare.files.record import Point
+    from compare.files.scales import Point
     from reference.problem import Problem
 
 __all__ = ["Crew"]

@@ -21,7 +21,8 @@ if TYPE_CHECKING:
     from compare.files.chunk import Chunk, Row
     from compare.files.crew import Crew
     from compare.files.judge import Judge
-    from compare.files.record import Bar, Point, Running
+    from compare.files.record import Bar, Running
+    from compare.files.scales import Point
 
 __all__ = ["BoundError", "Sift"]
 

@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING, Any
 
 from flint import arb
 
-from compare.files.record import Point, Running
+from compare.files.record import Running
+from compare.files.scales import Point
 from compare.files.slips import exchanged, refuse_other_times, refuse_other_units
 from compare.files.turns import Turns
 from reference.arithmetic.namespaces import BALL

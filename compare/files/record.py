@@ -6,51 +6,12 @@ import math
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, NamedTuple
 
-from compare.files.scales import Scales, near_zero
+from compare.files.scales import Point, Scales, near_zero
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Iterable, Sequence
 
-__all__ = ["Bar", "Point", "Running", "Score"]
-
-
-@dataclass(frozen=True)
-class Point:
-    """One row.
-
-    Attributes:
-        number: its number among the rows, from 1.
-        t: its time as it was handed in, s.
-        values: the state as it was handed in.
-        digits: correct digits: the least -log10 |error/truth| of the state's numbers, at most what the input can hold;
-            of a number whose truth is exactly zero, its digits on its scale.
-        scaled_digits: the least of their digits on the scale of each number (``scales``), NaN before that is known.
-        error: the largest |number - truth| of the state's numbers, each in its own units.
-        errors: number - truth, in the order of the state.
-        first_wrong: for each number the place of its first wrong significant digit, from 1; None where all are right.
-        phase_error: rad, 2 pi per period, positive where the state is ahead; NaN where it has no phase.
-        amplitude_error: in the units of the first number of the state; NaN where it has no amplitude.
-        energy_error: (E - E0)/(E0 - Emin), or the invariant itself where it starts at zero.
-        relative: the digits of each number relative to its truth, infinite where it is met; NaN where that is exactly
-            zero and is not met.
-        sizes: log10 |number - truth| of each, -infinite where the truth is met as far as it is known.
-        truths: log10 |truth| of each, -infinite where it is exactly zero.
-    """
-
-    number: int
-    t: str
-    values: tuple[str, ...]
-    digits: float
-    error: float
-    errors: tuple[float, ...]
-    first_wrong: tuple[int | None, ...]
-    phase_error: float
-    amplitude_error: float
-    energy_error: float
-    scaled_digits: float = field(repr=False)
-    relative: tuple[float, ...] = field(repr=False)
-    sizes: tuple[float, ...] = field(repr=False)
-    truths: tuple[float, ...] = field(repr=False)
+__all__ = ["Bar", "Running", "Score"]
 
 
 @dataclass(frozen=True)

@@ -9,7 +9,7 @@ relative error of NIST's Statistical Reference Datasets (McCullough, The America
 from __future__ import annotations
 
 import math
-from dataclasses import replace
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
 from compare.files.written import BINARY64_DIGITS
@@ -17,9 +17,7 @@ from compare.files.written import BINARY64_DIGITS
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
-    from compare.files.record import Point
-
-__all__ = ["SLACK", "Scales", "near_zero"]
+__all__ = ["SLACK", "Point", "Scales", "near_zero"]
 
 PLACES = 5
 """Places of a scale's mantissa: rows whose truths differ by less need not be told apart."""
@@ -27,6 +25,45 @@ SLACK = 1e-12
 """Relative to a truth: more than a rounding of it, or of its logarithm, is."""
 NEAR = 3.0
 """Digits that a number loses against its scale where its truth is called near zero."""
+
+
+@dataclass(frozen=True)
+class Point:
+    """One row.
+
+    Attributes:
+        number: its number among the rows, from 1.
+        t: its time as it was handed in, s.
+        values: the state as it was handed in.
+        digits: correct digits: the least -log10 |error/truth| of the state's numbers, at most what the input can hold;
+            of a number whose truth is exactly zero, its digits on its scale.
+        scaled_digits: the least of their digits on the scale of each number (``scales``), NaN before that is known.
+        error: the largest |number - truth| of the state's numbers, each in its own units.
+        errors: number - truth, in the order of the state.
+        first_wrong: for each number the place of its first wrong significant digit, from 1; None where all are right.
+        phase_error: rad, 2 pi per period, positive where the state is ahead; NaN where it has no phase.
+        amplitude_error: in the units of the first number of the state; NaN where it has no amplitude.
+        energy_error: (E - E0)/(E0 - Emin), or the invariant itself where it starts at zero.
+        relative: the digits of each number relative to its truth, infinite where it is met; NaN where that is exactly
+            zero and is not met.
+        sizes: log10 |number - truth| of each, -infinite where the truth is met as far as it is known.
+        truths: log10 |truth| of each, -infinite where it is exactly zero.
+    """
+
+    number: int
+    t: str
+    values: tuple[str, ...]
+    digits: float
+    error: float
+    errors: tuple[float, ...]
+    first_wrong: tuple[int | None, ...]
+    phase_error: float
+    amplitude_error: float
+    energy_error: float
+    scaled_digits: float = field(repr=False)
+    relative: tuple[float, ...] = field(repr=False)
+    sizes: tuple[float, ...] = field(repr=False)
+    truths: tuple[float, ...] = field(repr=False)
 
 
 class Scales:

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
     from compare.files.chunk import Chunk
     from compare.files.lines import Passed
-    from compare.files.record import Point
+    from compare.files.scales import Point
     from reference.command.at import Family
     from reference.problem import Problem
 

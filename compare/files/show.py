@@ -15,7 +15,8 @@ from compare.show.text_table import Column, Grid, Section
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from compare.files.record import Point, Score
+    from compare.files.record import Score
+    from compare.files.scales import Point
 
 __all__ = ["csv_header", "csv_rows", "json_text", "marked", "rendered"]
 

@@ -17,10 +17,10 @@ from typing import TYPE_CHECKING
 
 import reference
 from reference.command.executors import opened, results
-from reference.dataset import DatasetError
 from reference.dataset.blocks import Result, compute
 from reference.dataset.checksums import CHECKSUMS, checksums, note_checksum, require_notable
 from reference.dataset.claims import attributes
+from reference.dataset.errors import DatasetError
 from reference.dataset.files import destination, replacing, sha256, temporaries
 from reference.dataset.partial import PlaceError, partial, place_of
 from reference.dataset.writer import writing

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from reference.dataset import Dataset
+    from reference.dataset.reader import Dataset
 
 __all__ = ["FORMATS", "cite"]
 

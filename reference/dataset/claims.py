@@ -23,7 +23,6 @@ if TYPE_CHECKING:
 
     import numpy as np
 
-    from reference.dataset import Variable
     from reference.declaration import Row
 
 __all__ = ["DECIMAL_DIGITS", "attributes", "decimal_fault", "free_attributes", "limbs_fault", "measurement_fault"]
@@ -81,14 +80,14 @@ def limbs_fault(text: str, limbs: np.ndarray, limit: int) -> str:
     return ""
 
 
-def decimal_fault(variable: Variable, proven: Sequence[str], limit: int) -> str:
-    """What is wrong with a variable's decimals, given the proven ones in order; empty where nothing is.
+def decimal_fault(decimals: str, proven: Sequence[str], limit: int) -> str:
+    """What is wrong with a variable's attribute ``decimal``, given the proven ones in order; empty where nothing is.
 
     A text of ``limit`` bytes is too long for an attribute, and left out.
     """
     text = " ".join(proven)
     expected = proven if len(text) < limit else ()
-    stored = str(variable.attrs.get("decimal", "")).split()
+    stored = decimals.split()
     if len(stored) != len(expected):
         return f"the attribute 'decimal' has {len(stored)} numbers where {len(expected)} are expected"
     for i, (said, shown) in enumerate(zip(stored, expected, strict=True)):

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
     from typing import Any
 
-    from reference.dataset import Dataset, Variable
+    from reference.dataset.reader import Dataset, Variable
 
 __all__ = ["datasheet"]
 

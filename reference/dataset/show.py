@@ -13,7 +13,7 @@ from reference.names import unknown
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from reference.dataset import Dataset, Variable
+    from reference.dataset.reader import Dataset, Variable
 
 __all__ = ["show"]
 

@@ -10,10 +10,11 @@ import numpy as np
 
 from reference.arithmetic.binary64 import shortest, unsigned_zeros
 from reference.command.executors import opened, results
-from reference.dataset import DatasetError, load
 from reference.dataset.blocks import LIMBS, START_BITS, compare, decimals, prove
 from reference.dataset.claims import decimal_fault, measurement_fault
+from reference.dataset.errors import DatasetError
 from reference.dataset.plan import Group
+from reference.dataset.reader import load
 from reference.dataset.schema import ATTRIBUTE_LIMIT
 from reference.routes.agreement import ROUTES, DisagreementError
 
@@ -21,8 +22,8 @@ if TYPE_CHECKING:
     import os
     from collections.abc import Callable, Iterator
 
-    from reference.dataset import Dataset
     from reference.dataset.plan import Block
+    from reference.dataset.reader import Dataset
     from reference.declaration import Row
 
 __all__ = ["Proof", "differs", "verify"]
@@ -103,7 +104,7 @@ def verify(
         said, texts = dataset[proof.name], [proof.decimals[element] for element in sorted(proof.decimals)]
         proof.first = (
             proof.first
-            or decimal_fault(said, texts, ATTRIBUTE_LIMIT)
+            or decimal_fault(str(said.attrs.get("decimal", "")), texts, ATTRIBUTE_LIMIT)
             or measurement_fault(said.attrs, math.prod(said.shape), proof.row, proof.digits)
         )
     return list(proofs.values())

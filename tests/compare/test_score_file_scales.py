@@ -7,6 +7,7 @@ import io
 import json
 import math
 from fractions import Fraction
+from typing import TYPE_CHECKING
 
 import numpy as np
 import pytest
@@ -17,10 +18,12 @@ from compare.__main__ import main
 from compare.files.crew import Crew
 from compare.files.fast_path import Sift
 from compare.files.judge import Judge
-from compare.files.record import Point, Running
-from compare.files.scales import Scales
+from compare.files.scales import Point, Scales
 from reference import Pendulum
 from reference.problems.polar import PolarBrachistochrone
+
+if TYPE_CHECKING:
+    from compare.files.record import Running
 
 HELD = 53 * math.log10(2)
 TIMES = np.arange(0, 41) / 4

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     import random
     from collections.abc import Iterator
 
-    from reference.dataset import Dataset, Variable
+    from reference.dataset.reader import Dataset, Variable
 
 __all__ = ["elements", "misrounded"]
 

@@ -17,10 +17,10 @@ import reference
 from reference import Pendulum
 from reference.__main__ import main
 from reference.command.terminal import run
-from reference.dataset import core_path
 from reference.dataset.build import build
 from reference.dataset.cite import FORMATS as CITE_FORMATS
 from reference.dataset.plan import Group, Plan
+from reference.dataset.reader import core_path
 from reference.problems import catalogue
 from reference.problems.pendulum import family as groups
 

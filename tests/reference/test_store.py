@@ -14,9 +14,10 @@ from h5py import h5d, h5z
 from plans import SMALL
 
 import reference
-from reference.dataset import DatasetError, core_path, load
+from reference.dataset.errors import DatasetError
 from reference.dataset.fingerprint import pieces
 from reference.dataset.plan import Coordinate, Group, Layout
+from reference.dataset.reader import core_path, load
 from reference.dataset.schema import arrays
 from reference.dataset.versions import NEWEST
 from reference.problems.catalogue import LAYOUTS

@@ -15,7 +15,7 @@ import numpy as np
 import pytest
 from h5py import h5a, h5g, h5p, h5s, h5t
 
-from reference.dataset import DatasetError
+from reference.dataset.errors import DatasetError
 from reference.dataset.plan import Plan
 from reference.names import printable
 

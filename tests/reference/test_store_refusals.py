@@ -6,9 +6,10 @@ import h5py
 import numpy as np
 import pytest
 
-from reference.dataset import DatasetError, load
 from reference.dataset.checksums import note_checksum
+from reference.dataset.errors import DatasetError
 from reference.dataset.files import sha256
+from reference.dataset.reader import load
 from reference.dataset.schema import exact_texts
 
 

@@ -11,11 +11,12 @@ import numpy as np
 import pytest
 
 import reference
-from reference.dataset import DatasetError, load
 from reference.dataset.cite import cite
 from reference.dataset.content import fingerprint
 from reference.dataset.datasheet import datasheet
+from reference.dataset.errors import DatasetError
 from reference.dataset.plan import Group, Plan
+from reference.dataset.reader import load
 from reference.dataset.schema import RELEASED, arrays
 from reference.dataset.show import show
 from reference.dataset.verify import verify

@@ -8,10 +8,11 @@ import h5py
 import numpy as np
 import pytest
 
-from reference.dataset import DatasetError, load
 from reference.dataset.build import build
 from reference.dataset.content import fingerprint
+from reference.dataset.errors import DatasetError
 from reference.dataset.plan import Group, Plan
+from reference.dataset.reader import load
 from reference.dataset.schema import exact_texts
 from reference.dataset.verify import differs, verify
 from reference.problems.pendulum import family as groups
