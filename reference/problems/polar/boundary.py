@@ -26,13 +26,14 @@ from reference.arithmetic.exact import as_number
 from reference.arithmetic.limbs import WorkBoundError, ziv
 from reference.arithmetic.namespaces import BALL
 from reference.arithmetic.precision import ctx, mp
+from reference.problems.polar.equations import End, Field
 from reference.row_domains import Domain
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
     from reference.problems.polar.central import CentralBrachistochrone
-    from reference.problems.polar.extremal import End, Extremal, Field
+    from reference.problems.polar.extremal import Extremal
 
 __all__ = ["Reached", "end_of", "exponent_near", "lowest_point"]
 
@@ -51,8 +52,6 @@ def end_of(radius: Fraction, angle: Fraction, field: Field, extremal: Callable[.
     Raises:
         ValueError: no smooth extremal reaches it.
     """
-    from reference.problems.polar.extremal import End
-
     told = _told(radius, angle)
     if not 0 < radius <= 1:
         raise ValueError(f"{told}; a radius with 0 < R <= 1, the radius of the release, is accepted.")

@@ -36,7 +36,7 @@ from reference.problems.polar.extremal import Extremal
 from reference.problems.polar.panels import Schedule
 
 if TYPE_CHECKING:
-    from reference.problems.polar.extremal import End, Field
+    from reference.problems.polar.equations import End, Field
 
 __all__ = ["Carlson"]
 

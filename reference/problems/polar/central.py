@@ -30,7 +30,8 @@ if TYPE_CHECKING:
     from reference.certified import Certified
     from reference.constants import Constant
     from reference.declaration import Row
-    from reference.problems.polar.extremal import End, Extremal, Field
+    from reference.problems.polar.equations import End, Field
+    from reference.problems.polar.extremal import Extremal
     from reference.row_domains import Domain
 
 __all__ = ["CentralBrachistochrone"]

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from fractions import Fraction
-from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
+from typing import TYPE_CHECKING, Any
 
 from reference.declaration import ClosedForm
 from reference.once import cached_property
@@ -20,43 +20,14 @@ from reference.problems.polar.periodic import periodic_ball
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
-    from reference.arithmetic.protocols import Arithmetic
+    from reference.problems.polar.equations import End, Field
 
-__all__ = ["End", "Extremal", "Field"]
+
+__all__ = ["Extremal"]
 
 HALF = Fraction(1, 2)
 STRIPS = (0.3, 0.1)
 """Parts of the strip in which the rates are analytic, to be tried for a neighbour."""
-
-
-class Field(Protocol):
-    """A law of force: the equations of its brachistochrones, as ``PointMass`` states them."""
-
-    sweep: Fraction
-    beyond: str
-
-    def __hash__(self) -> int: ...
-    def kappa(self, z0: Any) -> Any: ...
-    def speed_squared(self, z: Any) -> Any: ...
-    def height(self, m: Arithmetic, z0: Any, sine2: Any, cosine2: Any) -> Any: ...
-    def squares(self, z0: Any, below: Any, above: Any) -> tuple[Any, Any]: ...
-    def rates(self, m: Arithmetic, z0: Any, sine2: Any, cosine2: Any) -> tuple[Any, Any]: ...
-    def climb(self, m: Arithmetic, z0: Any, z: Any) -> Any: ...
-    def excess(self, m: Arithmetic, z0: Any, sine2: Any, cosine2: Any) -> Any: ...
-    def motion(self, m: Arithmetic, z: Any, kappa: Any) -> tuple[Any, Any]: ...
-    def energy(self, z: Any, z_rate: Any, kappa: Any) -> Any: ...
-    def rate_squared(self, z0: Any) -> Any: ...
-    def slowness(self, m: Arithmetic, z: Any) -> Any: ...
-    def pull(self, z: Any) -> Any: ...
-    def singular(self, m: Arithmetic, z0: Any) -> tuple[tuple[Any, Any], ...]: ...
-
-
-class End(NamedTuple):
-    """Where an extremal ends: the exact radius and angle, and whether it has passed its lowest point by then."""
-
-    radius: Fraction
-    angle: Fraction
-    after: bool
 
 
 class Extremal(ClosedForm):

@@ -25,7 +25,7 @@ from reference.problems.polar.periodic import periodic_mpmath
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
-    from reference.problems.polar.extremal import End, Field
+    from reference.problems.polar.equations import End, Field
 
 __all__ = ["Numerical", "PathIntegral"]
 

@@ -22,7 +22,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from reference.problems.polar.extremal import Field
+    from reference.problems.polar.equations import Field
 
 __all__ = ["chord_geometry", "chord_time", "neighbour_excess", "neighbour_rates"]
 

@@ -15,7 +15,7 @@ from reference.arithmetic.namespaces import NUMPY
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from reference.problems.polar.extremal import Field
+    from reference.problems.polar.equations import Field
 
 __all__ = ["Panels", "Schedule", "panels_of"]
 

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from fractions import Fraction
 
     from reference.declaration import Row
-    from reference.problems.polar.extremal import Field
+    from reference.problems.polar.equations import Field
 
 __all__ = ["PolarBrachistochrone"]
 

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
     from reference.arithmetic.protocols import Arithmetic
-    from reference.problems.polar.extremal import Field
+    from reference.problems.polar.equations import Field
     from reference.problems.polar.numerical import Numerical
 
 __all__ = ["Equations", "System", "TaylorExtremal"]

@@ -9,7 +9,7 @@ from reference.problems.polar.extremal import Extremal
 from reference.problems.tunnel.equations import UNIFORM_BALL
 
 if TYPE_CHECKING:
-    from reference.problems.polar.extremal import Field
+    from reference.problems.polar.equations import Field
 
 __all__ = ["Hypocycloid"]
 
