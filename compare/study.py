@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
+from compare.march.aspects import conserves
 from compare.march.precision import precision as find_precision
-from compare.measure.aspects import conserves
 from compare.measure.cases import case_of
 from compare.measure.order_fit import fit_order
 from compare.measure.scores import GROWTH_SAMPLES, Found, score

@@ -30,7 +30,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def _parser() -> Parser:
-    from reference.problems.catalogue import PROFILES
+    from reference.dataset.catalogue import PROFILES
 
     parser = Parser(prog="python -m reference", description="Reference values, proven correctly rounded.")
     commands = parser.add_subparsers(dest="command", metavar="COMMAND", required=True, parser_class=Parser)
@@ -118,8 +118,8 @@ def _at(asked: argparse.Namespace) -> int:
 
 def _build(asked: argparse.Namespace) -> int:
     from reference.dataset.build import build
+    from reference.dataset.catalogue import plan
     from reference.dataset.grids import plan_from
-    from reference.problems.catalogue import plan
 
     wanted = plan(asked.profile) if asked.config is None else plan_from(asked.config)
     out = _default_out(wanted.profile) if asked.out is None else asked.out

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from compare.measure.aspects import conserves
+from compare.march.aspects import conserves
 from compare.methods.order.algebraic import Q
 from reference.arithmetic.compiler import hy
 from reference.arithmetic.dual import Dual, DualArithmetic
@@ -18,9 +18,9 @@ if TYPE_CHECKING:
 
     from flint import arb
 
-    from compare.march.precision import Enclosed, Precision
+    from compare.march.precision import Precision
     from compare.methods.kinds.protocol import State
-    from compare.methods.order.algebraic import Coefficient
+    from compare.methods.order.algebraic import Coefficient, Enclosed
     from reference.problem import Problem
 
 __all__ = ["BoundSystem", "FormatArithmetic", "plain_system"]

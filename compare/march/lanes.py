@@ -7,7 +7,7 @@ from fractions import Fraction
 from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
-from compare.measure.aspects import conserves
+from compare.march.aspects import conserves
 from reference.arithmetic.namespaces import BALL
 
 if TYPE_CHECKING:

@@ -18,10 +18,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from compare.march.aspects import conserves
 from compare.march.block_size import INLINE_SINE, Shape
 from compare.march.lanes import Lane, March, StartInvariant, grain_of, sample_steps, start_level
 from compare.march.trace import compile_block, entry_rows, plain_block
-from compare.measure.aspects import conserves
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -19,16 +19,9 @@ if TYPE_CHECKING:
 
     from flint import arb
 
-    from compare.methods.order.algebraic import Coefficient
+    from compare.methods.order.algebraic import Coefficient, Enclosed
 
 __all__ = ["FORMATS", "Precision", "precision"]
-
-
-class Enclosed(Protocol):
-    """A real number known by its enclosures."""
-
-    def ball(self) -> arb:
-        """A ball around it, at the precision in force."""
 
 
 @dataclass(frozen=True)

@@ -12,9 +12,9 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
+from compare.march.aspects import aspect_of
 from compare.march.equation import BoundSystem, plain_system
 from compare.march.sine import LaneArithmetic
-from compare.measure.aspects import aspect_of
 from compare.methods.order.algebraic import Q
 from reference.arithmetic.compiler import hy
 from reference.arithmetic.namespaces import Heyoka

@@ -6,7 +6,7 @@ import math
 from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
-from compare.measure.aspects import aspect_of, conserves, period_of
+from compare.march.aspects import aspect_of, conserves, period_of
 from compare.measure.records import Case
 
 if TYPE_CHECKING:

@@ -16,10 +16,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from compare.march.aspects import aspect_of, conserves
 from compare.march.equation import BoundSystem, FormatArithmetic
 from compare.march.lanes import StartInvariant
 from compare.march.precision import precision
-from compare.measure.aspects import aspect_of, conserves
 from reference.arithmetic.namespaces import NUMPY
 from reference.arithmetic.precision import ctx
 

@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from compare.march.aspects import conserves, period_of
 from compare.march.march import march
-from compare.measure.aspects import conserves, period_of
 from compare.measure.order_fit import fit_order, slope_with_interval, student_95
 from compare.measure.records import Cell, Drift
 from compare.measure.rounding import roundings_of

@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from compare.march.aspects import conserves, period_of
 from compare.march.march import march
-from compare.measure.aspects import conserves, period_of
 from compare.measure.laws import enough, exponent_of
 from compare.measure.records import FLOOR_FACTOR, Growth
 from compare.measure.result import Run

@@ -15,9 +15,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 from flint import arb
 
+from compare.march.aspects import period_of
 from compare.march.lanes import Lane
 from compare.march.march import march
-from compare.measure.aspects import period_of
 from compare.measure.orbital import early_reach
 from compare.measure.records import OwnPeriod
 from compare.measure.result import SPARE_BITS, as_balls

@@ -18,8 +18,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from compare.march.aspects import conserves
 from compare.march.march import march
-from compare.measure.aspects import conserves
 from compare.measure.records import FLOOR_FACTOR
 from compare.methods.kinds.compensated import Compensated
 

@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from compare.march.aspects import Aspect, aspect_of, conserves
 from compare.march.equation import FormatArithmetic
 from compare.march.lanes import Lane, sample_steps, start_level
-from compare.measure.aspects import Aspect, aspect_of, conserves
 from compare.measure.cases import case_of
 from compare.measure.conditioning import Reach, reach
 from reference.once import cached_property

@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from compare.march.aspects import aspect_of
 from compare.march.precision import precision
-from compare.measure.aspects import aspect_of
 from compare.solvers.foreign import Heard, heard
 from compare.solvers.records import EventCell, SolverCell
 

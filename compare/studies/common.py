@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from compare.march.aspects import conserves
 from compare.march.march import INLINE_SINE, march
-from compare.measure.aspects import conserves
 from compare.measure.records import Study, Trace
 from compare.measure.truth import Course
 from compare.study import fits, score_all

@@ -18,7 +18,7 @@ from reference.routes.agreement import ROUTES, agreement
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from reference.dataset.plan import Block
+    from reference.family import Block
 
 __all__ = ["LIMBS", "START_BITS", "Result", "compare", "compute", "decimals", "prove"]
 

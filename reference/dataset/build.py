@@ -18,6 +18,7 @@ from typing import TYPE_CHECKING
 import reference
 from reference.command.executors import opened, results
 from reference.dataset.blocks import Result, compute
+from reference.dataset.catalogue import PROFILES
 from reference.dataset.checksums import CHECKSUMS, checksums, note_checksum, require_notable
 from reference.dataset.claims import attributes
 from reference.dataset.errors import DatasetError
@@ -25,7 +26,6 @@ from reference.dataset.files import destination, replacing, sha256, temporaries
 from reference.dataset.partial import PlaceError, partial, place_of
 from reference.dataset.writer import writing
 from reference.names import is_grid_file, unknown
-from reference.problems.catalogue import PROFILES
 from reference.routes.agreement import ROUTES
 
 if TYPE_CHECKING:

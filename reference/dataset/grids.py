@@ -22,14 +22,15 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from reference.arithmetic.exact import exact
-from reference.dataset.plan import Group, Plan
+from reference.dataset.catalogue import LAYOUTS
+from reference.dataset.plan import Plan
+from reference.family import Group
 from reference.names import is_grid_file, said, short, unknown
-from reference.problems.catalogue import LAYOUTS
 
 if TYPE_CHECKING:
     from fractions import Fraction
 
-    from reference.dataset.plan import Coordinate
+    from reference.family import Coordinate
 
 __all__ = ["MAX_NUMBERS", "plan_from"]
 

@@ -17,6 +17,7 @@ from h5py import h5d, h5l, h5o, h5z
 
 from reference.arithmetic.binary64 import is_negative_zero
 from reference.dataset.attributes import TYPES, bounded, refusal, says, text_of, texts
+from reference.dataset.catalogue import PROFILES
 from reference.dataset.claims import free_attributes, limbs_fault, measurement_fault
 from reference.dataset.content import dimensions, parameters_of
 from reference.dataset.plan import monotonic
@@ -36,11 +37,10 @@ from reference.dataset.schema import (
 )
 from reference.dataset.versions import SCHEMAS
 from reference.names import is_grid_file, short, unknown
-from reference.problems.catalogue import PROFILES
 
 if TYPE_CHECKING:
-    from reference.dataset.plan import Layout
     from reference.dataset.schema import Array, Schema
+    from reference.family import Layout
 
 __all__ = ["SIGNATURE", "inspect"]
 

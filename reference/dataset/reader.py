@@ -23,8 +23,8 @@ from reference.once import cached_property
 if TYPE_CHECKING:
     import os
 
-    from reference.dataset.plan import Layout
     from reference.dataset.schema import Schema
+    from reference.family import Layout
 
 __all__ = ["CORE_NAME", "Dataset", "Variable", "core_path", "load"]
 

@@ -11,13 +11,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from reference.arithmetic.binary64 import hexadecimal, shortest
-from reference.dataset.plan import BLOCK_LENGTH
+from reference.family import BLOCK_LENGTH
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping, Sequence
 
-    from reference.dataset.plan import Component, Coordinate, Layout
     from reference.declaration import Row
+    from reference.family import Component, Coordinate, Layout
 
 __all__ = [
     "ATTRIBUTE_LIMIT",

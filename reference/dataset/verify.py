@@ -13,18 +13,18 @@ from reference.command.executors import opened, results
 from reference.dataset.blocks import LIMBS, START_BITS, compare, decimals, prove
 from reference.dataset.claims import decimal_fault, measurement_fault
 from reference.dataset.errors import DatasetError
-from reference.dataset.plan import Group
 from reference.dataset.reader import load
 from reference.dataset.schema import ATTRIBUTE_LIMIT
+from reference.family import Group
 from reference.routes.agreement import ROUTES, DisagreementError
 
 if TYPE_CHECKING:
     import os
     from collections.abc import Callable, Iterator
 
-    from reference.dataset.plan import Block
     from reference.dataset.reader import Dataset
     from reference.declaration import Row
+    from reference.family import Block
 
 __all__ = ["Proof", "differs", "verify"]
 

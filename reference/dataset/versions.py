@@ -9,15 +9,15 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
+from reference.dataset.catalogue import LAYOUTS
 from reference.dataset.schema import ROOT, Schema
-from reference.problems.catalogue import LAYOUTS
 from reference.problems.pendulum import family as pendulum
 from reference.problems.polar import family as polar
 from reference.routes.agreement import ROUTES
 
 if TYPE_CHECKING:
-    from reference.dataset.plan import Layout
     from reference.declaration import Quantity, Row
+    from reference.family import Layout
 
 __all__ = ["NEWEST", "SCHEMAS"]
 

@@ -31,8 +31,9 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping
     from pathlib import Path
 
-    from reference.dataset.plan import Block, Group, Plan
+    from reference.dataset.plan import Plan
     from reference.dataset.schema import Array
+    from reference.family import Block, Group
 
 __all__ = ["Writer", "writing"]
 

@@ -13,10 +13,10 @@ import time
 from typing import TYPE_CHECKING
 
 from reference.dataset.blocks import compute
-from reference.problems.catalogue import plan
+from reference.dataset.catalogue import plan
 
 if TYPE_CHECKING:
-    from reference.dataset.plan import Group
+    from reference.family import Group
 
 
 def seconds(group: Group, row: str) -> float:

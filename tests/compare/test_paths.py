@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from compare import error_vs_n
-from compare.measure.aspects import conserves
+from compare.march.aspects import conserves
 from compare.methods import find
 from compare.methods.multistep import MULTISTEP
 from reference import Cycloid, PolarBrachistochrone

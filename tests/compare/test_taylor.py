@@ -13,11 +13,11 @@ import pytest
 from flint import arb
 
 import compare
+from compare.march.aspects import aspect_of
 from compare.march.equation import plain_system
 from compare.march.march import Lane, march, sample_steps
 from compare.march.precision import FORMATS, Precision, precision
 from compare.march.trace import compile_block
-from compare.measure.aspects import aspect_of
 from compare.methods import find
 from compare.methods.kinds.taylor import Taylor
 from compare.methods.order.algebraic import Q, enclose

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from reference.dataset.plan import Group, Plan
+from reference.dataset.plan import Plan
+from reference.family import Group
 from reference.problems.pendulum import family as groups
 
 SMALL = Plan(

@@ -300,9 +300,9 @@ def test_no_option_takes_what_is_no_number(capsys, family):
 
 def test_paths_of_bytes_are_refused(tmp_path):
     from reference.dataset.build import build
+    from reference.dataset.catalogue import plan
     from reference.dataset.grids import plan_from
     from reference.dataset.verify import verify
-    from reference.problems.catalogue import plan
 
     for path in (b"file.h5", 7, object()):
         refused(lambda path=path: reference.load(path), "the path is of type")

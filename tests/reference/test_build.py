@@ -14,12 +14,13 @@ from plans import TINY, leftovers
 
 import reference
 from reference.dataset import build as building
+from reference.dataset import catalogue
 from reference.dataset.blocks import spread
 from reference.dataset.build import build
 from reference.dataset.checksums import note_checksum
-from reference.dataset.plan import BLOCK_LENGTH, Group, Plan
+from reference.dataset.plan import Plan
 from reference.dataset.reader import load
-from reference.problems import catalogue
+from reference.family import BLOCK_LENGTH, Group
 from reference.problems.pendulum import family as groups
 from reference.routes.agreement import Agreement
 

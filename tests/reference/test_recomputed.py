@@ -7,7 +7,7 @@ from recomputed import RECOMPUTED
 from sampled import elements, misrounded
 
 import reference
-from reference.problems.catalogue import LAYOUTS
+from reference.dataset.catalogue import LAYOUTS
 
 
 @pytest.fixture(scope="module")

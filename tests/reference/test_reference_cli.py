@@ -17,11 +17,12 @@ import reference
 from reference import Pendulum
 from reference.__main__ import main
 from reference.command.terminal import run
+from reference.dataset import catalogue
 from reference.dataset.build import build
 from reference.dataset.cite import FORMATS as CITE_FORMATS
-from reference.dataset.plan import Group, Plan
+from reference.dataset.plan import Plan
 from reference.dataset.reader import core_path
-from reference.problems import catalogue
+from reference.family import Group
 from reference.problems.pendulum import family as groups
 
 ROOT = Path(reference.__file__).parents[1]

@@ -13,7 +13,8 @@ from reference.dataset import build as building
 from reference.dataset.blocks import Result, compute
 from reference.dataset.build import build
 from reference.dataset.partial import BusyError, partial
-from reference.dataset.plan import Group, Plan
+from reference.dataset.plan import Plan
+from reference.family import Group
 from reference.problems.pendulum import family as groups
 
 

@@ -14,13 +14,13 @@ from h5py import h5d, h5z
 from plans import SMALL
 
 import reference
+from reference.dataset.catalogue import LAYOUTS
 from reference.dataset.errors import DatasetError
 from reference.dataset.fingerprint import pieces
-from reference.dataset.plan import Coordinate, Group, Layout
 from reference.dataset.reader import core_path, load
 from reference.dataset.schema import arrays
 from reference.dataset.versions import NEWEST
-from reference.problems.catalogue import LAYOUTS
+from reference.family import Coordinate, Group, Layout
 from reference.problems.pendulum import Pendulum
 from reference.problems.pendulum import family as groups
 

@@ -11,17 +11,18 @@ import numpy as np
 import pytest
 
 import reference
+from reference.dataset.catalogue import LAYOUTS
 from reference.dataset.cite import cite
 from reference.dataset.content import fingerprint
 from reference.dataset.datasheet import datasheet
 from reference.dataset.errors import DatasetError
-from reference.dataset.plan import Group, Plan
+from reference.dataset.plan import Plan
 from reference.dataset.reader import load
 from reference.dataset.schema import RELEASED, arrays
 from reference.dataset.show import show
 from reference.dataset.verify import verify
 from reference.dataset.versions import NEWEST, SCHEMAS
-from reference.problems.catalogue import LAYOUTS
+from reference.family import Group
 from reference.problems.polar import family as polar
 
 DATA = Path(__file__).parent / "data"
@@ -124,7 +125,7 @@ def test_end_points_lie_along_an_index_and_are_auxiliary_coordinates():
 
 
 def test_every_axis_of_every_profile_rises_or_falls():
-    from reference.problems.catalogue import PROFILES, plan
+    from reference.dataset.catalogue import PROFILES, plan
 
     for profile in PROFILES:
         for group in plan(profile).groups:  # which refuses what is not so

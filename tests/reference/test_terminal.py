@@ -102,7 +102,8 @@ def test_a_closed_output_is_no_error_where_there_is_nothing_to_say(tmp_path):
     import numpy as np
 
     from reference.dataset.build import build
-    from reference.dataset.plan import Group, Plan
+    from reference.dataset.plan import Plan
+    from reference.family import Group
     from reference.problems.pendulum import family as groups
 
     inputs = {"amplitude": [0.5], "time": np.arange(2) / 4}

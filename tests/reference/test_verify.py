@@ -11,10 +11,11 @@ import pytest
 from reference.dataset.build import build
 from reference.dataset.content import fingerprint
 from reference.dataset.errors import DatasetError
-from reference.dataset.plan import Group, Plan
+from reference.dataset.plan import Plan
 from reference.dataset.reader import load
 from reference.dataset.schema import exact_texts
 from reference.dataset.verify import differs, verify
+from reference.family import Group
 from reference.problems.pendulum import family as groups
 from reference.routes.agreement import DisagreementError
 

@@ -274,7 +274,7 @@ def test_a_build_lists_its_blocks_once_and_tells_of_its_progress_before_it_prove
 
 
 def test_a_block_holds_no_numbers_of_its_own_before_it_is_proven():
-    for group in reference.problems.catalogue.plan("full").groups:
+    for group in reference.dataset.catalogue.plan("full").groups:
         block = next(block for block in group.blocks() if block.row.over != "once") if group.layout.over else None
         if block is not None:
             assert any((block.values.base is values) for values in group.inputs.values())

@@ -9,8 +9,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, ClassVar, Protocol
 
 if TYPE_CHECKING:
-    from compare.march.precision import Enclosed
-    from compare.methods.order.algebraic import Coefficient
+    from compare.methods.order.algebraic import Coefficient, Enclosed
 
 __all__ = ["Equation", "Method", "OneStep", "State", "System"]
 

@@ -10,7 +10,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import lru_cache
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING, Protocol, TypeAlias
 
 from flint import arb, fmpq, fmpq_poly, fmpz_poly
 
@@ -22,9 +22,16 @@ if TYPE_CHECKING:
 
     from compare.methods.order.certified_roots import Linear
 
-__all__ = ["Algebraic", "Coefficient", "Field", "Q", "enclose", "root", "root_of"]
+__all__ = ["Algebraic", "Coefficient", "Enclosed", "Field", "Q", "enclose", "root", "root_of"]
 
 Q = Fraction
+
+
+class Enclosed(Protocol):
+    """A real number known by its enclosures."""
+
+    def ball(self) -> arb:
+        """A ball around it, at the precision in force."""
 
 
 @dataclass(frozen=True)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from reference.dataset.plan import Coordinate, Group, Layout
+from reference.family import Coordinate, Group, Layout
 from reference.problems.descent import RACE as CURVES
 from reference.problems.descent import Descent
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from reference.dataset.plan import Coordinate, Group, Layout
+from reference.family import Coordinate, Group, Layout
 from reference.problems.pendulum import LinearPendulum, Pendulum, PendulumSeries
 from reference.problems.pendulum.quantities import SERVED
 

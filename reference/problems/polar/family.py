@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from reference.dataset.plan import Coordinate, Group, Layout
+from reference.family import Coordinate, Group, Layout
 from reference.problems.polar import PolarBrachistochrone
 from reference.problems.tunnel import Tunnel
 

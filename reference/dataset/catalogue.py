@@ -14,7 +14,7 @@ from reference.problems.polar import family as polar
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from reference.dataset.plan import Group, Layout
+    from reference.family import Group, Layout
 
 __all__ = ["LAYOUTS", "PROFILES", "plan"]
 
