@@ -10,17 +10,15 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from compare.claims.candidate import Candidate
+from compare.claims.candidate import Candidate, form_of
 from compare.claims.consistency import advance_of_a_constant_slope, iterates, uses
 from compare.claims.courses import Steps, Whole
 from compare.claims.deadline import TimeOut, deadline
 from compare.claims.defects import Evidence, reversibility, symplecticity
 from compare.claims.energy import energy
 from compare.claims.engine import Lanes, Traced, chosen, repeatable
-from compare.claims.field import Exhausted, MisuseError
 from compare.claims.findings import Claims
-from compare.claims.forms import form_of
-from compare.claims.frames import Frame, Scene, scale_of_time
+from compare.claims.frames import Exhausted, Frame, MisuseError, Scene, scale_of_time
 from compare.claims.half_step import half_step
 from compare.claims.heading import UNTRIED, Heading, heading
 from compare.claims.limits import SECONDS

@@ -9,8 +9,7 @@ import numpy as np
 
 from compare.claims.courses import Steps
 from compare.claims.engine import Lanes, Traced, trial_states
-from compare.claims.field import Exhausted, MisuseError
-from compare.claims.frames import Scene
+from compare.claims.frames import Exhausted, MisuseError, Scene
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

@@ -9,7 +9,7 @@ import numpy as np
 
 from compare.claims.courses import Steps
 from compare.claims.engine import Traced, trial_states
-from compare.claims.field import MisuseError
+from compare.claims.frames import MisuseError
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
-from compare.claims.field import Exhausted, MisuseError
-from compare.march.stepmap import slopes_of
+from compare.claims.frames import Exhausted, MisuseError
+from compare.march.trace import slopes_of
 from reference.arithmetic.compiler import hy
 
 if TYPE_CHECKING:

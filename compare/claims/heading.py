@@ -13,7 +13,7 @@ import numpy as np
 
 from compare.claims.consistency import uses
 from compare.claims.engine import Lanes, trial_states
-from compare.claims.field import Exhausted, MisuseError
+from compare.claims.frames import Exhausted, MisuseError
 from reference.arithmetic.namespaces import NUMPY
 
 if TYPE_CHECKING:

@@ -14,7 +14,7 @@ import numpy as np
 
 from compare.claims.engine import Lanes, trial_states
 from compare.claims.expansion import Expansion, Expansions
-from compare.claims.field import Exhausted, MisuseError
+from compare.claims.frames import Exhausted, MisuseError
 from reference.arithmetic.namespaces import MPMATH
 from reference.arithmetic.precision import mp
 from reference.arithmetic.series import jet

@@ -3,6 +3,8 @@
 Every lane is one march of its own, with its own start, step size and parameters.  A block takes some steps; it gives
 the state after every step, or after the last one with the running maxima of the energy error.  What a method remembers
 of earlier steps stands behind the state and is marched with it.
+
+The derivative of a step by the state it starts from, exact but for rounding: its expressions, differentiated.
 """
 
 from __future__ import annotations
@@ -26,7 +28,14 @@ if TYPE_CHECKING:
     from compare.methods.kinds.protocol import Method, State
     from reference.problem import Problem
 
-__all__ = ["Block", "Record", "TraceError", "compile_block", "entry_rows", "plain_block"]
+__all__ = ["Block", "Record", "TraceError", "compile_block", "entry_rows", "plain_block", "slopes_of"]
+
+
+def slopes_of(step: Sequence[Any], variables: Sequence[Any]) -> np.ndarray:
+    """d(step)/d(variables) as expressions of heyoka: [step, variables]."""
+    tensors = hy.diff_tensors(list(step), diff_args=list(variables), diff_order=1)
+    return np.asarray(tensors.jacobian, dtype=object)
+
 
 Record = Literal["every", "last"]
 CHECK_LANES = 8

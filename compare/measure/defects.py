@@ -16,7 +16,7 @@ from compare.march.aspects import conserves
 from compare.march.equation import BoundSystem, plain_system
 from compare.march.lanes import Lane, start_level
 from compare.march.march import converged, iterations_for, march
-from compare.march.stepmap import slopes_of
+from compare.march.trace import slopes_of
 from compare.measure.records import Defect
 from compare.measure.result import exactly
 from compare.methods.kinds.compensated import Compensated

@@ -1,8 +1,10 @@
-"""Explicit one-step methods, each as printed in its source."""
+"""Explicit one-step methods, each as printed in its source.
+
+Tables as they are printed: lines of fractions.
+"""
 
 from compare.methods.kinds.one_step import Tableau
 from compare.methods.order.algebraic import Q
-from compare.methods.printed import line, lines
 
 __all__ = [
     "BUTCHER6",
@@ -16,7 +18,20 @@ __all__ = [
     "RK4_MISPRINTED",
     "SSPRK3",
     "THREE_EIGHTHS",
+    "line",
+    "lines",
 ]
+
+
+def line(text: str) -> tuple[Q, ...]:
+    """The fractions of one line, such as "3/40 9/40"."""
+    return tuple(Q(word) for word in text.split())
+
+
+def lines(*texts: str) -> tuple[tuple[Q, ...], ...]:
+    """The rows of a matrix, a line each; the first row of an explicit method is empty."""
+    return tuple(line(text) for text in texts)
+
 
 EULER = Tableau(
     name="euler", order=1, source="Euler 1768, Institutionum calculi integralis I, ch. 7",

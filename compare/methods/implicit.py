@@ -1,9 +1,9 @@
 """Implicit Runge-Kutta methods, each as printed in its source."""
 
+from compare.methods.explicit import line, lines
 from compare.methods.kinds.one_step import Tableau
 from compare.methods.kinds.partitioned import Partitioned
 from compare.methods.order.algebraic import Q, root
-from compare.methods.printed import line, lines
 
 __all__ = [
     "GAUSS4",

@@ -8,7 +8,7 @@ from compare.methods.explicit import RK4
 from compare.methods.kinds.multistep import LinearMultistep, PredictorCorrector
 from compare.methods.kinds.stormer import StormerCowell
 from compare.methods.order.algebraic import Q
-from compare.methods.order.coefficients import adams, backward_differences, stormer
+from compare.methods.order.multistep import adams, backward_differences, stormer
 
 if TYPE_CHECKING:
     from compare.methods.kinds.protocol import Method

@@ -8,8 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from compare.methods.order.algebraic import Algebraic
 from compare.show import text_table as grid
-from compare.show.method import Butcher
-from compare.show.numerals import closed_form, decimal_form, exact_form, latex_form
+from compare.show.method import Butcher, closed_form, decimal_form, exact_form, latex_form
 from compare.show.text_table import Column, Grid, Section
 
 if TYPE_CHECKING:

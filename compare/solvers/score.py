@@ -1,27 +1,181 @@
-"""One solver, one question: what it answered, held against the proven states and events."""
+"""One solver, one question: what it answered, held against the proven states and events.
+
+Who asks for events: this process and others, for no time is measured there.
+
+Calling what others wrote: whatever it does, the caller goes on and knows what it said.
+"""
 
 from __future__ import annotations
 
+import contextlib
+import ctypes
 import math
+import os
+import sys
+import tempfile
 import time
+import warnings
+from dataclasses import dataclass
 from fractions import Fraction
 from functools import lru_cache
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Generic, NamedTuple, TypeVar
 
 import numpy as np
 
 from compare.march.aspects import aspect_of
 from compare.march.precision import precision
-from compare.solvers.foreign import Heard, heard
+from compare.solvers.catalogue import select
+from compare.solvers.events import exact_events
 from compare.solvers.records import EventCell, SolverCell
+from compare.solvers.solver import SolverError, StoppedError
+from reference.command.sharing import shared
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
+    from collections.abc import Callable, Iterator, Sequence
+    from concurrent.futures import Executor
 
     from compare.solvers.solver import Answer, Question, Solver
     from reference.problem import Problem
 
-__all__ = ["score_events", "score_solver"]
+__all__ = ["Asked", "Heard", "events", "heard", "score_events", "score_solver"]
+
+WORTH_PROCESSES = 4.0
+"""Seconds of all calls from which others take less time to begin than they save."""
+
+
+class Asked(NamedTuple):
+    """What a solver was asked, and what it answered."""
+
+    solver: Solver
+    question: Question
+    cell: SolverCell
+
+
+class Task(NamedTuple):
+    """The events of one question, as another process can take it: solvers are known there by their names."""
+
+    solver: str
+    question: Question
+    exact: np.ndarray
+
+
+def events(
+    asked: Sequence[Asked], executor: Executor | None = None, progress: Callable[[str], None] | None = None
+) -> list[EventCell]:
+    """Ask for the events of every question; a solver that gave no states is not asked.
+
+    The executor takes its share, the longest first, where that is worth it: an event takes about the time of a state.
+    """
+    answered = [one for one in asked if not one.cell.failure]
+    exact = {one.question.problem: exact_events(one.question.problem, one.question.end) for one in answered}
+    found: dict[tuple[str, float, float], EventCell | None] = {}
+    seconds = sum(one.cell.seconds or 0.0 for one in answered if one.solver.events is not None)
+    if executor is None or seconds < WORTH_PROCESSES:
+        for solver, question, _ in answered:
+            _tell(progress, solver.name)
+            found[_key(solver.name, question)] = score_events(solver, question, exact[question.problem])
+    else:
+        longest = sorted(answered, key=lambda one: one.cell.seconds or 0.0, reverse=True)
+        tasks = [Task(one.solver.name, one.question, exact[one.question.problem]) for one in longest]
+        for task, cell in shared(tasks, _score, executor):
+            _tell(progress, task.solver)
+            found[_key(task.solver, task.question)] = cell
+    cells = (found[_key(solver.name, question)] for solver, question, _ in answered)
+    return [cell for cell in cells if cell is not None]
+
+
+def _key(solver: str, question: Question) -> tuple[str, float, float]:
+    return solver, float(question.problem.start[0]), question.rtol
+
+
+def _tell(progress: Callable[[str], None] | None, name: str) -> None:
+    if progress is not None:
+        progress(f"{name}: events")
+
+
+def _score(task: Task) -> EventCell | None:
+    (solver,) = select([task.solver])
+    return score_events(solver, task.question, task.exact)
+
+
+LENGTH = 160
+"""Characters of a message that are repeated."""
+Value = TypeVar("Value")
+
+
+@dataclass(frozen=True)
+class Heard(Generic[Value]):
+    """What came of a foreign call.
+
+    Attributes:
+        value: what it returned; None where it failed.
+        failure: its own message, or "" where it did not fail.
+        said: its warnings, each once.
+        stopped: whether it failed because it was stopped.
+    """
+
+    value: Value | None
+    failure: str
+    said: tuple[str, ...]
+    stopped: bool = False
+
+
+def heard(call: Callable[[], Value]) -> Heard[Value]:
+    """Make a foreign call; its failures and warnings are an answer, and what it prints stays off the terminal."""
+    value, failure, stopped = None, "", False
+    with warnings.catch_warnings(record=True) as caught, _printed() as printed:
+        warnings.simplefilter("always")
+        try:
+            value = call()
+        except SolverError as error:
+            failure, stopped = _brief(str(error)), isinstance(error, StoppedError)
+        except Exception as error:  # noqa: BLE001 - a foreign solver may fail in any way; how it does is what is reported
+            failure = _brief(f"{type(error).__name__}: {error}")
+    if failure and printed:
+        failure = _brief(f"{failure}; it printed: {' '.join(printed)}")
+    kinds = (DeprecationWarning, PendingDeprecationWarning, ImportWarning, ResourceWarning)
+    told = [_brief(str(warning.message)) for warning in caught if not issubclass(warning.category, kinds)]
+    return Heard(value, failure, tuple(dict.fromkeys(told)), stopped)
+
+
+def _brief(text: str) -> str:
+    """The text in one line, cut where it is long."""
+    line = " ".join(text.split())
+    return line if len(line) <= LENGTH else f"{line[: LENGTH - 3].rstrip()}..."
+
+
+@contextlib.contextmanager
+def _printed() -> Iterator[list[str]]:
+    """Collect what is written to the standard streams inside, by Python or by compiled code, as a list of lines."""
+    lines: list[str] = []
+    with tempfile.TemporaryFile("w+", encoding="utf-8", errors="replace") as noise:
+        with _replaced(noise.fileno()), contextlib.redirect_stdout(noise), contextlib.redirect_stderr(noise):
+            yield lines
+        noise.seek(0)
+        lines += [line.strip() for line in noise if line.strip()]
+
+
+@contextlib.contextmanager
+def _replaced(handle: int) -> Iterator[None]:
+    """Let the streams of compiled code, which know nothing of Python's, end in another file."""
+    _flush()
+    kept = [os.dup(stream) for stream in (1, 2)]
+    try:
+        for stream in (1, 2):
+            os.dup2(handle, stream)
+        yield
+    finally:
+        _flush()
+        for stream, copy in zip((1, 2), kept, strict=True):
+            os.dup2(copy, stream)
+            os.close(copy)
+
+
+def _flush() -> None:
+    for stream in (sys.stdout, sys.stderr):
+        stream.flush()
+    ctypes.CDLL(None).fflush(None)
+
 
 LIMBS = 2
 CALLS, BRIEF = 3, 0.1

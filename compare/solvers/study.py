@@ -8,11 +8,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from compare.measure.errors import SAMPLES
-from compare.solvers.asking import Asked, events
 from compare.solvers.catalogue import SOLVERS, select
 from compare.solvers.events import event_of
 from compare.solvers.records import SolverEntry, SolverStudy
-from compare.solvers.score import score_solver
+from compare.solvers.score import Asked, events, score_solver
 from compare.solvers.solver import Question
 from compare.study import some
 from reference import Pendulum, __version__

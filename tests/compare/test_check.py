@@ -11,9 +11,8 @@ import pytest
 import slips
 
 import compare
-from compare.claims.field import Field
-from compare.claims.forms import form_of
-from compare.claims.frames import Frame, Scene
+from compare.claims.candidate import form_of
+from compare.claims.frames import Field, Frame, Scene
 from compare.claims.order import Cell, fitted, ladder
 from reference import Pendulum
 

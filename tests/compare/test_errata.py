@@ -13,13 +13,21 @@ import pytest
 
 from compare.__main__ import main
 from compare.sources.errata import show
-from compare.sources.errata.cosines import coefficient, plus, sine, times
-from compare.sources.errata.entries import ENTRIES, ERRATA
-from compare.sources.errata.erratum import REPORT, THESIS
-from compare.sources.errata.evidence import near, rounds_to
+from compare.sources.errata.entries import ENTRIES, ERRATA, NOTICED
+from compare.sources.errata.evidence import REPORT, THESIS, near, rounds_to
 from compare.sources.errata.listings import CORRECTED, LISTING, undefined
-from compare.sources.errata.noticed import NOTICED
-from compare.sources.errata.report_series import BETA, BETA_PRINTED, PHI_B, PHI_B_PRINTED, PHI_C, PHI_C_PRINTED
+from compare.sources.errata.report_series import (
+    BETA,
+    BETA_PRINTED,
+    PHI_B,
+    PHI_B_PRINTED,
+    PHI_C,
+    PHI_C_PRINTED,
+    coefficient,
+    plus,
+    sine,
+    times,
+)
 from compare.sources.errata.sound import SOUND
 from compare.sources.errata.spelled import spelled
 from reference.arithmetic.precision import mp

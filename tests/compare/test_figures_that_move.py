@@ -11,9 +11,8 @@ import pytest
 from PIL import Image
 
 from compare.sources.figures.motion import figure8, figure13
-from compare.sources.figures.moving_image import FRAMES_PER_SECOND, HELD, PACE, SLOWER
+from compare.sources.figures.moving_image import FRAMES_PER_SECOND, HELD, PACE, SLOWER, animated
 from compare.sources.figures.page import STEPS_PER_SECOND
-from compare.sources.figures.paletted import animated
 from compare.sources.figures.show import files
 from reference import Descent, Tautochrone
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 import pytest
 
-from compare.measure.laws import exponent_of
+from compare.measure.growth import exponent_of
 from compare.study import score_all
 from reference import Pendulum
 

@@ -18,8 +18,7 @@ from compare.methods.kinds.multistep import LinearMultistep, PredictorCorrector
 from compare.methods.kinds.stormer import StormerCowell
 from compare.methods.multistep import BDF2, MULTISTEP
 from compare.methods.order.algebraic import Q
-from compare.methods.order.coefficients import adams, backward_differences, stormer
-from compare.methods.order.multistep import is_zero_stable
+from compare.methods.order.multistep import adams, backward_differences, is_zero_stable, stormer
 from reference import Pendulum
 
 if TYPE_CHECKING:

@@ -8,8 +8,7 @@ import pytest
 from flint import arb
 
 from compare.methods import METHODS, find
-from compare.methods.kinds.one_step import Tableau
-from compare.methods.kinds.properties import Stability, used_stages
+from compare.methods.kinds.one_step import Stability, Tableau, used_stages
 from compare.methods.order.algebraic import Q, enclose
 from reference.arithmetic.precision import ctx
 

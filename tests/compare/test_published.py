@@ -19,9 +19,9 @@ from compare.march.lanes import Lane
 from compare.march.march import march
 from compare.march.precision import precision
 from compare.methods import find
-from compare.sources.published.dense import dense
 from compare.sources.published.entry import reproduce
 from compare.sources.published.options import options
+from compare.sources.published.pendulum import dense
 from compare.sources.published.source import figure, figures, sources, tables
 from reference import Pendulum
 from reference.arithmetic.namespaces import NUMPY

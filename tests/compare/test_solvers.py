@@ -17,8 +17,7 @@ from scipy.integrate import solve_ivp
 from compare.solvers import study as study_module
 from compare.solvers.catalogue import SOLVERS, select
 from compare.solvers.events import exact_events
-from compare.solvers.foreign import heard
-from compare.solvers.score import score_events, score_solver
+from compare.solvers.score import heard, score_events, score_solver
 from compare.solvers.solver import Answer, Solver
 from compare.solvers.study import questions, study
 from reference import Pendulum
@@ -225,7 +224,7 @@ def events_of(times, **options):
 
 
 def test_other_processes_find_the_same_events_in_the_same_order(monkeypatch):
-    monkeypatch.setattr("compare.solvers.asking.WORTH_PROCESSES", 0.0)
+    monkeypatch.setattr("compare.solvers.score.WORTH_PROCESSES", 0.0)
     options = {"solvers": ["RK23", "taylor", "odeint"], "rtol": [1e-3, 1e-6], "t_end": 4.0, "theta0": [1.0, 2.0]}
     alone = study(**options)
     with processes(2) as executor:

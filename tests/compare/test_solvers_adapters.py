@@ -13,8 +13,8 @@ import pytest
 from compare.solvers import numbalsoda
 from compare.solvers.catalogue import select
 from compare.solvers.events import exact_events
+from compare.solvers.numbalsoda import SOURCE, Term
 from compare.solvers.score import score_events, score_solver
-from compare.solvers.source import SOURCE, Term
 from compare.solvers.study import questions
 from reference import Pendulum
 from reference.arithmetic.namespaces import NUMPY

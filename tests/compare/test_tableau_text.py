@@ -12,9 +12,8 @@ from flint import arb
 from compare.__main__ import main
 from compare.methods import METHODS, find
 from compare.methods.order.algebraic import Q, enclose, root
-from compare.show.method import describe
+from compare.show.method import closed_form, decimal_form, describe, latex_form
 from compare.show.method_text import FORMATS, render
-from compare.show.numerals import closed_form, decimal_form, latex_form
 from reference.arithmetic.precision import ctx
 
 RK4 = """\

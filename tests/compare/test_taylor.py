@@ -21,7 +21,7 @@ from compare.march.trace import compile_block
 from compare.methods import find
 from compare.methods.kinds.taylor import Taylor
 from compare.methods.order.algebraic import Q, enclose
-from compare.methods.order.forest import order_by_steps
+from compare.methods.order.conditions import order_by_steps
 from compare.methods.taylor import TAYLOR, TAYLOR4, TAYLOR8, TAYLOR20
 from reference import (
     Cycloid,

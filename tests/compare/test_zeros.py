@@ -22,13 +22,12 @@ from printed import (
 
 from compare.march.precision import precision
 from compare.methods import METHODS, find
-from compare.methods.embedded import DOP853
+from compare.methods.embedded import DOP853, TSITOURAS54
 from compare.methods.kinds.one_step import Method, Splitting, Tableau
 from compare.methods.order.algebraic import Coefficient, Q, enclose
 from compare.methods.order.certified_roots import Linear, Zero, ZeroError, unit
 from compare.methods.order.refined import proven_composition
 from compare.methods.symplectic import POSITION_VERLET
-from compare.methods.tsitouras import TSITOURAS54
 from reference.arithmetic.precision import ctx
 
 BITS = 320

@@ -2,6 +2,8 @@
 
 Each works for any problem by its ``derivative`` and its ``invariant``, with the gradient of the latter by dual numbers.
 Iterations are decided before the march, as those of any implicit method are, and their last change is reported.
+
+Gauss's quadrature on [0, 1]: nodes and weights known by their enclosures, to be rounded to any format.
 """
 
 from __future__ import annotations
@@ -12,9 +14,10 @@ from functools import reduce
 from operator import add, mul
 from typing import TYPE_CHECKING, Any, ClassVar
 
+from flint import arb
+
 from compare.methods.kinds.newton import Elimination, newton_matrix
 from compare.methods.kinds.protocol import OneStep
-from compare.methods.kinds.quadrature import gauss_rule
 from compare.methods.order.algebraic import Q
 
 if TYPE_CHECKING:
@@ -22,7 +25,35 @@ if TYPE_CHECKING:
 
     from compare.methods.kinds.protocol import Method, State, System
 
-__all__ = ["AverageVectorField", "DiscreteGradient", "Projected"]
+__all__ = ["AverageVectorField", "DiscreteGradient", "Projected", "gauss_rule"]
+
+
+@dataclass(frozen=True)
+class _Node:
+    """The i-th zero of Legendre's polynomial of a degree, moved to [0, 1]."""
+
+    degree: int
+    place: int
+
+    def ball(self) -> arb:
+        return (1 + arb.legendre_p_root(self.degree, self.place)) / 2
+
+
+@dataclass(frozen=True)
+class _Weight:
+    """The weight that belongs to it."""
+
+    degree: int
+    place: int
+
+    def ball(self) -> arb:
+        return arb.legendre_p_root(self.degree, self.place, weight=True)[1] / 2
+
+
+def gauss_rule(count: int) -> tuple[tuple[_Node, _Weight], ...]:
+    """(node, weight) of the rule with ``count`` nodes: exact for polynomials of degree 2 count - 1."""
+    return tuple((_Node(count, place), _Weight(count, place)) for place in range(count))
+
 
 LARGEST_SIZE = 0.85
 """Above it the estimates of the convergence say nothing; as many iterations are taken as there."""

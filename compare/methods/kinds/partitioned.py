@@ -7,7 +7,7 @@ from typing import Any
 
 from compare.methods.kinds import newton
 from compare.methods.kinds.increment import advance, increment
-from compare.methods.kinds.properties import is_symmetric, is_symplectic
+from compare.methods.kinds.one_step import is_symmetric, is_symplectic
 from compare.methods.kinds.protocol import OneStep, State, System
 from compare.methods.order.algebraic import Coefficient, Q, enclose
 from reference.once import cached_property

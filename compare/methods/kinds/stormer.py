@@ -9,10 +9,9 @@ import numpy as np
 
 from compare.methods.kinds import newton
 from compare.methods.kinds.increment import increment
-from compare.methods.kinds.past import Past, moved, total, without_zeros
+from compare.methods.kinds.multistep import Past, moved, total, without_zeros
 from compare.methods.order.algebraic import Q
-from compare.methods.order.coefficients import velocity_weights
-from compare.methods.order.multistep import is_zero_stable, multistep_order
+from compare.methods.order.multistep import is_zero_stable, multistep_order, velocity_weights
 from reference.once import cached_property
 
 if TYPE_CHECKING:

@@ -45,7 +45,7 @@ class Taylor(OneStep):
 
     def proven_order(self) -> int:
         """By Butcher's trees: the step is taken on the equations that they stand for."""
-        from compare.methods.order.forest import order_by_steps
+        from compare.methods.order.conditions import order_by_steps
 
         return order_by_steps(self)
 

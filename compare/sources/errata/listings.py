@@ -6,7 +6,7 @@ import ast
 import builtins
 from pathlib import Path
 
-from compare.sources.errata.erratum import THESIS, Erratum
+from compare.sources.errata.evidence import THESIS, Erratum
 
 __all__ = ["LISTINGS", "undefined"]
 

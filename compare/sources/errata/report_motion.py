@@ -5,8 +5,7 @@ from __future__ import annotations
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
-from compare.sources.errata.erratum import REPORT, Erratum
-from compare.sources.errata.evidence import GRAVITY, along, exactly, near, precisely, proven
+from compare.sources.errata.evidence import GRAVITY, REPORT, Erratum, along, exactly, near, precisely, proven
 from compare.sources.errata.spelled import spelled
 from reference.arithmetic.precision import mp
 from reference.problems.pendulum import Pendulum

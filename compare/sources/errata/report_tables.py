@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from compare.sources.errata.erratum import REPORT, Erratum
-from compare.sources.errata.evidence import GRAVITY, along, exactly, precisely, proven, rounds_to
+from compare.sources.errata.evidence import GRAVITY, REPORT, Erratum, along, exactly, precisely, proven, rounds_to
 from compare.sources.errata.report_series import TO_THE_FOURTH
 from compare.sources.errata.spelled import spelled
 from compare.sources.published.source import tables

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Any
 
 from compare.show import text_table as grid
 from compare.show.text_table import Column, Section, folded
-from compare.sources.errata.erratum import Erratum
-from compare.sources.errata.noticed import NOTICED
+from compare.sources.errata.entries import NOTICED
+from compare.sources.errata.evidence import Erratum
 from compare.sources.published.source import sources
 
 if TYPE_CHECKING:

@@ -8,8 +8,7 @@ from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
 from compare.sources.errata import report_series as series
-from compare.sources.errata.erratum import REPORT, THESIS
-from compare.sources.errata.evidence import GRAVITY, along, exactly, near, precisely, proven, rates
+from compare.sources.errata.evidence import GRAVITY, REPORT, THESIS, along, exactly, near, precisely, proven, rates
 from compare.sources.errata.report_motion import SUBSTITUTED, is_velocity
 from compare.sources.errata.spelled import spelled
 from compare.sources.errata.thesis_curves import NUMERATOR, are_rates

@@ -11,8 +11,18 @@ from typing import TYPE_CHECKING, Any
 from compare.methods.explicit import RK4, RK4_MISPRINTED
 from compare.methods.order.algebraic import Q
 from compare.methods.order.conditions import order_of_tableau
-from compare.sources.errata.erratum import THESIS, Erratum
-from compare.sources.errata.evidence import GRAVITY, along, exactly, near, precisely, proven, rates, rounds_to
+from compare.sources.errata.evidence import (
+    GRAVITY,
+    THESIS,
+    Erratum,
+    along,
+    exactly,
+    near,
+    precisely,
+    proven,
+    rates,
+    rounds_to,
+)
 from compare.sources.errata.spelled import spelled
 from compare.sources.published.curve import listed_error
 from compare.sources.published.source import tables

@@ -5,8 +5,7 @@ from __future__ import annotations
 from fractions import Fraction
 from typing import Any
 
-from compare.sources.errata.erratum import THESIS, Erratum
-from compare.sources.errata.evidence import along, near, precisely, proven, rounds_to
+from compare.sources.errata.evidence import THESIS, Erratum, along, near, precisely, proven, rounds_to
 from compare.sources.errata.spelled import spelled
 from reference.arithmetic.precision import mp
 from reference.problems.polar import PolarBrachistochrone

@@ -12,9 +12,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from compare.sources.figures.drawing import Drawing, curve
-from compare.sources.published.dense import dense
 from compare.sources.published.entry import reproduce
-from compare.sources.published.pendulum import expansion
+from compare.sources.published.pendulum import dense, expansion
 from compare.sources.published.source import tables
 from reference import LinearPendulum, Pendulum
 from reference.arithmetic.namespaces import NUMPY

@@ -9,7 +9,8 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import FixedLocator, LogLocator, NullLocator
 
 from compare.show.plot_style import GREY, inks, saved, style
-from compare.sources.figures import moving_image, page, panels
+from compare.sources.figures import moving_image, page
+from compare.sources.figures import scene as panels
 from compare.sources.figures.catalogue import FIGURES
 from compare.sources.figures.motion import Motion
 from compare.sources.figures.scene import draw_curve
