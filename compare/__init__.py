@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from compare.claims.checking import check
-    from compare.files.scored import score
+    from compare.files.score import score
     from compare.study import energy_drift, error_vs_n
 
 __all__ = ["check", "energy_drift", "error_vs_n", "score"]
@@ -16,7 +16,7 @@ _HOMES = {
     "check": "compare.claims.checking",
     "energy_drift": "compare.study",
     "error_vs_n": "compare.study",
-    "score": "compare.files.scored",
+    "score": "compare.files.score",
 }
 
 

@@ -12,11 +12,10 @@ import numpy as np
 
 from compare.claims.candidate import Candidate, form_of
 from compare.claims.consistency import advance_of_a_constant_slope, iterates, uses
-from compare.claims.courses import Steps, Whole
 from compare.claims.deadline import TimeOut, deadline
 from compare.claims.defects import Evidence, reversibility, symplecticity
 from compare.claims.energy import energy
-from compare.claims.engine import Lanes, Traced, chosen, repeatable
+from compare.claims.engine import Lanes, Steps, Traced, Whole, chosen, repeatable
 from compare.claims.findings import Claims
 from compare.claims.frames import Exhausted, Frame, MisuseError, Scene, scale_of_time
 from compare.claims.half_step import half_step
@@ -32,7 +31,7 @@ from reference.problem import SeparableProblem
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from compare.claims.courses import Marcher
+    from compare.claims.engine import Marcher
 
 __all__ = ["check"]
 

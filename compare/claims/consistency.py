@@ -7,15 +7,14 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from compare.claims.courses import Steps
-from compare.claims.engine import Lanes, Traced, trial_states
+from compare.claims.engine import Lanes, Steps, Traced, trial_states
 from compare.claims.frames import Exhausted, MisuseError, Scene
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from compare.claims.candidate import Candidate
-    from compare.claims.courses import Marcher
+    from compare.claims.engine import Marcher
     from reference.arithmetic.protocols import Arithmetic
 
 __all__ = ["advance_of_a_constant_slope", "iterates", "uses"]

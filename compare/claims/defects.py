@@ -7,14 +7,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from compare.claims.courses import Steps
-from compare.claims.engine import Traced, trial_states
+from compare.claims.engine import Steps, Traced, trial_states
 from compare.claims.frames import MisuseError
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from compare.claims.courses import Marcher
+    from compare.claims.engine import Marcher
 
 __all__ = ["Defect", "Evidence", "reversibility", "symplecticity"]
 

@@ -11,7 +11,7 @@ import numpy as np
 from compare.measure.errors import slope_with_interval
 
 if TYPE_CHECKING:
-    from compare.claims.courses import Marcher
+    from compare.claims.engine import Marcher
 
 __all__ = ["Energy", "energy"]
 

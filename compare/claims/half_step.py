@@ -18,7 +18,7 @@ from reference.arithmetic.namespaces import NUMPY
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from compare.claims.courses import Marcher
+    from compare.claims.engine import Marcher
     from compare.claims.frames import Scene
 
 __all__ = ["half_step"]

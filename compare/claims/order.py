@@ -17,7 +17,7 @@ from compare.measure.errors import slope_with_interval
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from compare.claims.courses import Marcher
+    from compare.claims.engine import Marcher
     from compare.claims.frames import Scene
 
 __all__ = ["Cell", "Order", "ladder", "measured"]

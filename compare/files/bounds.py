@@ -10,11 +10,10 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from compare.files.pendulum_bounds import SLACK, sketch
-from compare.files.places import Places
+from compare.files.pendulum_bounds import SLACK, Places, sketch
 
 if TYPE_CHECKING:
-    from compare.files.places import Found
+    from compare.files.pendulum_bounds import Found
     from reference.problem import Problem
     from reference.problems.pendulum import Pendulum
 

@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from compare.files.judge import FIRST_ROWS
 from compare.files.scales import SLACK
-from compare.files.slips import FIRST_ROWS
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Mapping

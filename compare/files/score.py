@@ -1,30 +1,164 @@
-"""What ``python -m compare score`` does: a file judged a chunk at a time, in memory that does not grow with it."""
+"""What ``python -m compare score`` does: a file judged a chunk at a time, in memory that does not grow with it.
+
+``compare.score``: numbers from any code, judged.
+
+A submission's file, whatever its format: chunks of rows.
+"""
 
 from __future__ import annotations
 
 from collections import deque
+from collections.abc import Iterable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
+from compare.files.arrays import chunks, npy_columns
+from compare.files.chunk import Row
 from compare.files.columns import Columns
 from compare.files.crew import Crew
+from compare.files.exact_rows import Times
 from compare.files.fast_path import Sift
-from compare.files.files import Rows
+from compare.files.hdf5 import hdf5_columns
 from compare.files.judge import CHUNK, Judge
+from compare.files.lines import NOTHING
+from compare.files.npz import npz_columns
 from compare.files.show import csv_header, csv_rows, rendered
+from compare.files.text import STANDARD_INPUT, TextRows
+from compare.files.written import of_value
+from reference.arithmetic.exact import NO_SEQUENCES
 from reference.names import unknown
 from reference.problems.families import FAMILIES
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator, Mapping
+    from collections.abc import Callable, Iterator, Mapping, Sequence
 
     from compare.files.chunk import Chunk
     from compare.files.lines import Passed
+    from compare.files.record import Score
     from compare.files.scales import Point
+    from compare.files.written import Written
     from reference.command.at import Family
     from reference.problem import Problem
 
-__all__ = ["Submission", "families", "judged"]
+__all__ = ["SUFFIXES", "Rows", "Submission", "families", "judged", "score"]
+
+
+def score(problem: Problem, t: Any, y: Any) -> Score:
+    """Judge a trajectory against the proven state at exactly its times.
+
+    Args:
+        problem: a problem with a state in time, such as ``Pendulum(1.0)``.
+        t: the times in s, increasing, of shape [rows]: floats at their exact values, decimal strings, Fractions.
+        y: the states, of shape [rows, state]: floating-point numbers of any width, decimal strings, Decimals, Fractions
+            or mpmath's numbers.  A decimal of 48 digits is judged to 48 digits.
+
+    Raises:
+        ValueError: times do not increase, shapes do not match, a number is not finite, or angles are in degrees.
+        TypeError: ``problem`` is no problem, something is no real number, or an array is masked.
+    """
+    judge = Judge(problem)
+    times = [of_value(value, "t") for value in _listed(t, "t")]
+    states = [_state(row, number, problem.state_names) for number, row in enumerate(_listed(y, "y"), start=1)]
+    if len(times) != len(states):
+        raise ValueError(f"t has {len(times)} times and y {len(states)} rows; equally many are accepted.")
+    judge.expect(number.digits for state in states for number in state)
+    running = judge.running(None)
+    rows = [
+        Row(when, state, f"row {number}")
+        for number, (when, state) in enumerate(zip(times, states, strict=True), start=1)
+    ]
+    for first in range(0, len(rows), CHUNK):
+        points = judge.points(rows[first : first + CHUNK])
+        judge.turns.add(np.array([point.errors for point in points]))
+        running.add(points)
+    return judge.score(running, "as written")
+
+
+def _state(row: Any, number: int, names: Sequence[str]) -> tuple[Written, ...]:
+    values = _listed(row, f"row {number} of y")
+    if len(values) != len(names):
+        wanted = ", ".join(names)
+        raise ValueError(f"row {number} of y has {len(values)} numbers; {len(names)} are accepted: {wanted}.")
+    return tuple(of_value(value, f"{name} in row {number}") for name, value in zip(names, values, strict=True))
+
+
+def _listed(values: Any, name: str) -> list[Any]:
+    """A sequence or the first axis of an array as a list, whose numbers keep their types."""
+    if isinstance(values, (str, *NO_SEQUENCES)):
+        raise TypeError(f"{name} is of type {type(values).__name__}; a sequence or an array is accepted.")
+    if isinstance(values, np.ma.MaskedArray):
+        raise TypeError(f"{name} is a masked array, whose elements need not be numbers; an array is accepted.")
+    if hasattr(values, "__array__"):
+        array = np.asarray(values)
+        if array.ndim == 0:
+            raise ValueError(f"{name} is a single number; a sequence or an array is accepted.")
+        return array.tolist() if array.dtype == np.float64 else list(array)
+    if not isinstance(values, Iterable):
+        raise TypeError(f"{name} is of type {type(values).__name__}; a sequence or an array is accepted.")
+    return list(values)
+
+
+TEXT = (".csv", ".tsv", ".txt", ".dat", ".tab", ".prn", ".lvm", ".json", ".jsonl", ".ndjson")
+HDF5 = (".h5", ".hdf5", ".nc", ".mat")
+"""HDF5 itself, and what is written in it: netCDF-4, and MATLAB's files since version 7.3."""
+SUFFIXES = (*TEXT, ".npy", ".npz", *HDF5)
+
+
+class Rows:
+    """The rows of a file, in chunks; "-" is the standard input, as text.
+
+    Attributes:
+        times: how times are read, known after the first chunk: "as written" or "binary64".
+        notes: sentences on what did not count, or may be amiss; known after the last chunk.
+
+    Raises:
+        FileNotFoundError: there is no such file.
+        IsADirectoryError: it is a folder.
+        ValueError: its suffix is of no format that is read here, or has no array of all states, which was asked for, or
+            no lines that could be passed over.
+    """
+
+    def __init__(self, name: str, columns: Columns, passed: Passed = NOTHING, *, as_written: bool) -> None:
+        self._path, self._columns = Path(name), columns
+        self._suffix = TEXT[0] if name == STANDARD_INPUT else self._path.suffix.lower()
+        if self._suffix not in (".npz", *HDF5):
+            columns.refuse_packed()
+        self._times = Times(as_written=as_written)
+        self._text = TextRows(columns, passed, self._times)
+        if name == STANDARD_INPUT:
+            return
+        if self._path.is_dir():
+            raise IsADirectoryError(f"'{name}' is a folder; a file is accepted.")
+        if not self._path.exists():
+            raise FileNotFoundError(f"there is no file '{name}'.")
+        if self._suffix not in SUFFIXES:
+            raise ValueError(f"'{name}' is of no format that is read here; accepted are {', '.join(SUFFIXES)}.")
+        if passed != NOTHING and self._suffix not in TEXT:
+            raise ValueError(f"'{name}' has no lines; --skip and --comment are accepted of text.")
+
+    @property
+    def times(self) -> str:
+        return str(self._times)
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        return tuple(self._text.notes)
+
+    def chunks(self, size: int) -> Iterator[Chunk]:
+        """Read the file, ``size`` rows at a time.
+
+        Raises:
+            ValueError: it is not what its suffix says, or a row cannot be judged.
+        """
+        if self._suffix in TEXT:
+            yield from self._text.chunks(self._path, size)
+            return
+        opened = {".npy": npy_columns, ".npz": npz_columns}.get(self._suffix, hdf5_columns)
+        with opened(self._path, self._columns) as found:
+            yield from chunks(self._columns, found, size, self._times)
 
 
 @dataclass(frozen=True)

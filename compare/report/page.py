@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from compare.report import plot
 from compare.report.table import COLUMNS, case_sections, cases, closing
-from compare.show import machine
+from compare.show import render as machine
 from compare.show import text_table as grid
 from compare.show.render import header
 

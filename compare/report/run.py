@@ -1,19 +1,30 @@
-"""From what is asked to a report: every group once, on an executor, the finished ones kept until all are."""
+"""From what is asked to a report: every group once, on an executor, the finished ones kept until all are.
+
+Finished groups of an unfinished report, kept beside its folder, so that a long report can go on.
+
+One group of a report: a method or a solver on one problem, over its numbers of steps or tolerances.
+"""
 
 from __future__ import annotations
 
 import hashlib
-from dataclasses import dataclass
+import json
+import math
+from dataclasses import asdict, dataclass
+from fractions import Fraction
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from compare.measure.errors import SAMPLES
+from compare.march.march import march_alone
+from compare.march.precision import precision
+from compare.march.trace import TraceError
+from compare.measure.errors import SAMPLES, Course, score_errors
+from compare.methods import find
 from compare.report.families import FAMILIES, Amplitude, Family, family
-from compare.report.kept import Kept
 from compare.report.records import Report, WorkPoint
-from compare.report.work import Task, work
 from compare.show.output import folder
 from compare.solvers.catalogue import SOLVERS, select
+from compare.solvers.score import score_solver
 from compare.solvers.solver import CALLS
 from compare.solvers.study import DEFAULT_LIMIT, DEFAULT_RTOL, facts, questions, tolerances
 from compare.study import fits, named, some
@@ -21,17 +32,133 @@ from reference import __version__
 from reference.arithmetic.compiler import hy
 from reference.arithmetic.exact import positive
 from reference.command.executors import opened, results
-from reference.dataset.partial import partial
+from reference.dataset.blocks import partial
 from reference.routes.agreement import ROUTES
 
 if TYPE_CHECKING:
     import os
     from collections.abc import Callable, Iterable, Iterator, Sequence
 
+    from compare.measure.records import Cell
     from compare.methods.kinds.one_step import Method
+    from compare.solvers.records import SolverCell
     from compare.solvers.solver import Question, Solver
+    from reference.dataset.blocks import Partial
+    from reference.problem import Problem
 
-__all__ = ["DEFAULT_N", "Plan", "plan", "run"]
+__all__ = ["DEFAULT_N", "Kept", "Plan", "Task", "plan", "run", "work"]
+
+DIGEST = 64
+"""Characters of the SHA-256 in front of a group."""
+
+
+class Kept:
+    """The finished groups of one report, among the finished blocks beside it."""
+
+    def __init__(self, finished: Partial) -> None:
+        self._finished = finished
+
+    def put(self, task: Task, points: Sequence[WorkPoint]) -> None:
+        """Keep a finished group: it is there as a whole or not at all."""
+        text = json.dumps([asdict(point) for point in points])
+        self._finished.put(task.key, f"{_digest(text)}{text}".encode())
+
+    def get(self, task: Task) -> tuple[WorkPoint, ...] | None:
+        """The finished group, or None where there is none or it is damaged."""
+        found = (self._finished.get(task.key) or b"").decode(errors="replace")
+        digest, text = found[:DIGEST], found[DIGEST:]
+        return tuple(WorkPoint(**fields) for fields in json.loads(text)) if text and digest == _digest(text) else None
+
+
+def _digest(text: str) -> str:
+    return hashlib.sha256(text.encode()).hexdigest()
+
+
+@dataclass(frozen=True)
+class Task:
+    """What one worker is asked for.
+
+    Attributes:
+        family, amplitude: the problem.
+        name, kind: a method and "method", or a solver and "solver".
+        settings: numbers of steps, or tolerances.
+        t_end: the last time, s.
+        limit: evaluations of the right-hand side that a solver is granted for one answer.
+    """
+
+    family: str
+    amplitude: float | str
+    name: str
+    kind: str
+    settings: tuple[float, ...]
+    t_end: float
+    limit: int
+
+    @property
+    def key(self) -> str:
+        """The task as text; equal tasks have equal keys."""
+        return json.dumps(asdict(self), sort_keys=True)
+
+    @property
+    def problem(self) -> Problem:
+        """The problem itself."""
+        return family(self.family).build(self.amplitude)
+
+
+def work(task: Task) -> tuple[WorkPoint, ...]:
+    """Do what the task asks for; whatever goes wrong with a method or a solver is part of the answer."""
+    return _marched(task) if task.kind == "method" else _solved(task)
+
+
+def _marched(task: Task) -> tuple[WorkPoint, ...]:
+    method, fmt, end = find(task.name), precision("float64"), Fraction(task.t_end)
+    courses = [Course(task.problem, int(n), end, fmt) for n in task.settings]
+    try:
+        cells = score_errors(method, courses, fmt)
+        alone = march_alone(method, [course.lane for course in courses], fmt)
+    except (ValueError, TraceError) as error:  # the method does not fit the problem: others may
+        return tuple(_failed(task, n, str(error)) for n in task.settings)
+    return tuple(_point(task, cell.n, cell, seconds) for cell, (_, seconds) in zip(cells, alone, strict=True))
+
+
+def _solved(task: Task) -> tuple[WorkPoint, ...]:
+    (solver,) = select([task.name])
+    cells = score_solver(solver, list(questions(task.problem, task.t_end, task.settings, task.limit)))
+    return tuple(
+        _failed(task, cell.rtol, cell.failure) if cell.failure else _point(task, cell.rtol, cell, cell.seconds)
+        for cell in cells
+    )
+
+
+def _point(task: Task, setting: float, cell: Cell | SolverCell, seconds: float | None) -> WorkPoint:
+    return WorkPoint(
+        family=task.family,
+        amplitude=task.amplitude,
+        name=task.name,
+        kind=task.kind,
+        setting=setting,
+        max_error=float(cell.max_error),
+        floor=bool(cell.floor),
+        evaluations=cell.evaluations,
+        seconds=seconds,
+        failure="",
+    )
+
+
+def _failed(task: Task, setting: float, why: str) -> WorkPoint:
+    return WorkPoint(
+        family=task.family,
+        amplitude=task.amplitude,
+        name=task.name,
+        kind=task.kind,
+        setting=setting,
+        max_error=math.nan,
+        floor=False,
+        evaluations=None,
+        seconds=None,
+        failure=why,
+    )
+
 
 DEFAULT_N = tuple(2**k for k in range(7, 18))
 

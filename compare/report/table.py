@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
 
     from compare.report.records import Report, WorkPoint
-    from compare.show.machine import Columns
+    from compare.show.render import Columns
 
 __all__ = ["COLUMNS", "TABLES", "TARGETS", "cases", "sections"]
 

@@ -17,13 +17,12 @@ from typing import TYPE_CHECKING
 
 import reference
 from reference.command.executors import opened, results
-from reference.dataset.blocks import Result, compute
+from reference.dataset.blocks import PlaceError, Result, compute, partial, place_of
 from reference.dataset.catalogue import PROFILES
 from reference.dataset.checksums import CHECKSUMS, checksums, note_checksum, require_notable
 from reference.dataset.claims import attributes
 from reference.dataset.errors import DatasetError
 from reference.dataset.files import destination, replacing, sha256, temporaries
-from reference.dataset.partial import PlaceError, partial, place_of
 from reference.dataset.writer import writing
 from reference.names import is_grid_file, unknown
 from reference.routes.agreement import ROUTES
@@ -31,7 +30,7 @@ from reference.routes.agreement import ROUTES
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
-    from reference.dataset.partial import Partial
+    from reference.dataset.blocks import Partial
     from reference.dataset.plan import Plan
     from reference.dataset.writer import Writer
     from reference.declaration import Row

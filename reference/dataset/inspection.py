@@ -19,7 +19,7 @@ from reference.arithmetic.binary64 import is_negative_zero
 from reference.dataset.attributes import TYPES, bounded, refusal, says, text_of, texts
 from reference.dataset.catalogue import PROFILES
 from reference.dataset.claims import free_attributes, limbs_fault, measurement_fault
-from reference.dataset.content import dimensions, parameters_of
+from reference.dataset.fingerprint import dimensions, parameters_of
 from reference.dataset.plan import monotonic
 from reference.dataset.schema import (
     ATTRIBUTE_LIMIT,

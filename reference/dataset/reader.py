@@ -12,9 +12,9 @@ import numpy as np
 
 from reference.dataset.attributes import SCALE_NAMES, text_of
 from reference.dataset.checksums import check_checksum
-from reference.dataset.content import fingerprint, parameters_of
 from reference.dataset.errors import DatasetError
 from reference.dataset.files import regular_file
+from reference.dataset.fingerprint import fingerprint, parameters_of
 from reference.dataset.inspection import SIGNATURE, inspect
 from reference.dataset.schema import LIMB, PROVENANCE, arrays
 from reference.names import unknown

@@ -20,15 +20,13 @@ from compare.measure.errors import Course
 from compare.methods import METHODS, find
 from compare.report import run as running
 from compare.report.families import family
-from compare.report.kept import Kept
 from compare.report.page import files, page
 from compare.report.records import Report, WorkPoint
-from compare.report.run import plan, run
+from compare.report.run import Kept, Task, plan, run, work
 from compare.report.table import TABLES, sections
-from compare.report.work import Task, work
 from compare.show import render as rendering
 from reference import Descent, Pendulum
-from reference.dataset.partial import BusyError, PlaceError, partial
+from reference.dataset.blocks import BusyError, PlaceError, partial
 
 SMALL = {
     "problems": ["pendulum"],

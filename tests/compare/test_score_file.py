@@ -17,7 +17,7 @@ import pytest
 from compare.__main__ import main
 from compare.files import lines as numbered_lines
 from compare.files.columns import Columns
-from compare.files.files import Rows
+from compare.files.score import Rows
 from reference import Pendulum
 from reference.problems.cycloid import Cycloid, Tautochrone
 from reference.problems.polar import PolarBrachistochrone

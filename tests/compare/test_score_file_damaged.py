@@ -19,7 +19,7 @@ import pytest
 import compare
 from compare.__main__ import main
 from compare.files.columns import Columns
-from compare.files.files import Rows
+from compare.files.score import Rows
 from reference import Pendulum
 
 T = np.arange(0, 40) / 10

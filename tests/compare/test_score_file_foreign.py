@@ -12,7 +12,7 @@ import pytest
 
 from compare import score
 from compare.__main__ import main
-from compare.files.units import Unit, unit
+from compare.files.columns import Unit, unit
 from reference import Pendulum
 
 T = np.arange(11) / 10

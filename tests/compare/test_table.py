@@ -14,7 +14,7 @@ import pytest
 from made_study import METHODS, made_case, made_study
 
 from compare.measure.records import Defect, Growth, OwnPeriod, Phase, Study
-from compare.show import machine
+from compare.show import render as machine
 from compare.show import study as table
 from compare.show import text_table as grid
 from compare.show.text_table import Column, Grid, Section

@@ -27,9 +27,8 @@ import reference
 from reference.command.marked import LOCK
 from reference.command.terminal import run
 from reference.dataset import build as building
-from reference.dataset.blocks import compute
+from reference.dataset.blocks import compute, partial, place_of
 from reference.dataset.build import build
-from reference.dataset.partial import partial, place_of
 from reference.dataset.plan import Plan
 from reference.family import Group
 from reference.problems.pendulum import family as groups

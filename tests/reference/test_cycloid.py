@@ -17,8 +17,15 @@ from reference.arithmetic.limbs import WorkBoundError
 from reference.arithmetic.namespaces import BALL, MPMATH, NUMPY, Heyoka
 from reference.arithmetic.precision import ctx, mp
 from reference.problems.cycloid import Cycloid, CycloidArc
-from reference.problems.cycloid.equations import arc_acceleration, arc_energy, depth, point_below_cusp, run
-from reference.problems.cycloid.neighbours import excess, slowness
+from reference.problems.cycloid.equations import (
+    arc_acceleration,
+    arc_energy,
+    depth,
+    excess,
+    point_below_cusp,
+    run,
+    slowness,
+)
 from reference.routes.agreement import ROUTES, agreement
 
 BITS = 3 * 159

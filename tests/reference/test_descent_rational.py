@@ -11,8 +11,7 @@ from reference.arithmetic.exact import rational_root
 from reference.arithmetic.formula import Expression
 from reference.arithmetic.precision import mp
 from reference.problems.descent import RACE, Descent
-from reference.problems.descent.exactly import COSINES, exactly
-from reference.problems.descent.surds import PI, UNKNOWN, NotExactError, Surd, surd
+from reference.problems.descent.surds import COSINES, PI, UNKNOWN, NotExactError, Surd, exactly, surd
 
 ALONG_THE_PASSAGE = {
     ("line", 1): {"1/3": (None, None, Fraction(4, 3), None, None), "1": (None, 0, 0, 2, None)},

@@ -13,8 +13,7 @@ from independent_polar import POINT_MASS, UNIFORM_BALL, chord_time, neighbour_ti
 from reference.arithmetic.namespaces import BALL
 from reference.arithmetic.precision import ctx, mp
 from reference.problems.polar import PolarBrachistochrone
-from reference.problems.polar.panels import Panels, Schedule, panels_of
-from reference.problems.polar.periodic import periodic_ball, periodic_mpmath
+from reference.problems.polar.panels import Panels, Schedule, panels_of, periodic_ball, periodic_mpmath
 from reference.problems.tunnel import Tunnel
 
 BOTH = pytest.mark.parametrize("family", [PolarBrachistochrone, Tunnel])

@@ -10,9 +10,8 @@ from plans import TINY, leftovers
 
 import reference
 from reference.dataset import build as building
-from reference.dataset.blocks import Result, compute
+from reference.dataset.blocks import BusyError, Result, compute, partial
 from reference.dataset.build import build
-from reference.dataset.partial import BusyError, partial
 from reference.dataset.plan import Plan
 from reference.family import Group
 from reference.problems.pendulum import family as groups

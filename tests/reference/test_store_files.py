@@ -11,7 +11,7 @@ import pytest
 
 from reference.dataset.checksums import check_checksum, checksums, note_checksum
 from reference.dataset.files import replacing, sha256, temporaries
-from reference.dataset.sink import Sink
+from reference.dataset.writer import Sink
 
 
 def leftovers(folder):

@@ -13,9 +13,9 @@ import pytest
 import reference
 from reference.dataset.catalogue import LAYOUTS
 from reference.dataset.cite import cite
-from reference.dataset.content import fingerprint
 from reference.dataset.datasheet import datasheet
 from reference.dataset.errors import DatasetError
+from reference.dataset.fingerprint import fingerprint
 from reference.dataset.plan import Plan
 from reference.dataset.reader import load
 from reference.dataset.schema import RELEASED, arrays

@@ -150,7 +150,7 @@ def test_a_signal_while_hdf5_writes_ends_the_build_and_leaves_no_file(tmp_path, 
     from plans import TINY
 
     from reference.dataset.build import build
-    from reference.dataset.sink import Sink
+    from reference.dataset.writer import Sink
 
     calls = []
     write = Sink.write

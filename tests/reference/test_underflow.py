@@ -47,7 +47,7 @@ from reference.dataset.build import build
 from reference.problems.pendulum import family as groups
 from reference.dataset.plan import Group, Plan
 from reference.dataset import load
-from reference.dataset.content import fingerprint
+from reference.dataset.fingerprint import fingerprint
 from reference.dataset.verify import verify
 inputs = {"amplitude": [0.5, 2.0], "time": [0.0, 1e-310, 1e299, 2.5e300]}
 plan = Plan("core", (Group(groups.LONG, {"g": 1e-300, "length": 1e300}, inputs),))
@@ -60,7 +60,7 @@ answer += [found["pendulum/long/time"].attrs[name] for name in ("decimal", "hex"
 FORGED = """
 import h5py
 import numpy as np
-from reference.dataset.content import fingerprint
+from reference.dataset.fingerprint import fingerprint
 from reference.dataset.verify import verify
 with h5py.File("tiny.h5", "r+", libver=("v110", "v110")) as file:
     tail = file["pendulum/long/omega_tail"]

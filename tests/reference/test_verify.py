@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from reference.dataset.build import build
-from reference.dataset.content import fingerprint
 from reference.dataset.errors import DatasetError
+from reference.dataset.fingerprint import fingerprint
 from reference.dataset.plan import Plan
 from reference.dataset.reader import load
 from reference.dataset.schema import exact_texts

@@ -18,9 +18,9 @@ import reference
 from reference.command.marked import PlaceError, abandoned, made
 from reference.command.terminal import run
 from reference.dataset import build as building
+from reference.dataset.blocks import partial
 from reference.dataset.build import build
 from reference.dataset.checksums import checksums
-from reference.dataset.partial import partial
 
 ROOT = Path(reference.__file__).parents[1]
 PROGRAM = Path(__file__).with_name("arrangements.py")

@@ -17,8 +17,7 @@ from typing import TYPE_CHECKING, Any
 from reference.arithmetic import quadrature
 from reference.arithmetic.precision import mp
 from reference.declaration import ClosedForm
-from reference.problems.cycloid.equations import arc_frequency, point_below_cusp
-from reference.problems.cycloid.neighbours import excess, slowness
+from reference.problems.cycloid.equations import arc_frequency, excess, point_below_cusp, slowness
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -11,8 +11,7 @@ from reference.arithmetic.namespaces import MPMATH
 from reference.arithmetic.precision import mp
 from reference.arithmetic.quadrature import to_fraction
 from reference.once import cached_property
-from reference.problems.cycloid.equations import arc_acceleration, depth, point_from_bottom
-from reference.problems.cycloid.neighbours import slowness
+from reference.problems.cycloid.equations import arc_acceleration, depth, point_from_bottom, slowness
 from reference.routes.taylor import Flow
 
 if TYPE_CHECKING:

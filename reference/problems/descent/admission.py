@@ -20,9 +20,9 @@ from reference.names import short
 from reference.problems.descent.analytic import ANALYTIC
 from reference.problems.descent.clock import MAX_DEPTH, MAX_DISCS, MAX_OPERATIONS, ChartWorkError, NoChartError, pieces
 from reference.problems.descent.curves import Curve, FormulaCurve
-from reference.problems.descent.exactly import exactly
 from reference.problems.descent.reality import Unreal, unreal
 from reference.problems.descent.slide import Slide
+from reference.problems.descent.surds import exactly
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

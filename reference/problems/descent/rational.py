@@ -20,8 +20,7 @@ from reference.arithmetic.exact import rational_root
 from reference.arithmetic.precision import ctx
 from reference.once import cached_property
 from reference.problems.descent.curves import CycloidByArc, FormulaCurve
-from reference.problems.descent.exactly import SURD, exactly, known
-from reference.problems.descent.surds import UNKNOWN, Surd, surd
+from reference.problems.descent.surds import SURD, UNKNOWN, Surd, exactly, known, surd
 
 if TYPE_CHECKING:
     from reference.problems.descent.slide import Slide

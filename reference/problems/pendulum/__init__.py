@@ -1,8 +1,7 @@
 """The mathematical pendulum: theta'' = -(g/l) sin theta, released from rest or set going; linearised; in series."""
 
-from reference.problems.pendulum.approximations import LindstedtSolution, PeriodSeries
+from reference.problems.pendulum.approximations import LindstedtMotion, LindstedtSolution, PendulumSeries, PeriodSeries
 from reference.problems.pendulum.events import Events
-from reference.problems.pendulum.expansion import LindstedtMotion, PendulumSeries
 from reference.problems.pendulum.linear import LinearPendulum
 from reference.problems.pendulum.problem import Pendulum
 

@@ -1,21 +1,226 @@
-"""What a pendulum says of its expansions in the amplitude: exact coefficients, proven values and proven errors."""
+"""What a pendulum says of its expansions in the amplitude: exact coefficients, proven values and proven errors.
+
+The pendulum's expansions in its amplitude as problems: their values, and their errors against the truth.
+"""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from fractions import Fraction
+from typing import TYPE_CHECKING, Any, ClassVar
 
-from reference.arithmetic.exact import exact
-from reference.problems.pendulum import series
-from reference.problems.pendulum.expansion import LindstedtMotion, PendulumSeries
+from reference.arithmetic import quadrature
+from reference.arithmetic.exact import as_number, exact
+from reference.arithmetic.namespaces import MPMATH
+from reference.declaration import ClosedForm, Row
+from reference.once import cached_property
+from reference.problem import Problem
+from reference.problems.pendulum import contour, series
+from reference.problems.pendulum.problem import Pendulum
+from reference.problems.pendulum.quantities import LINDSTEDT_ROWS, SERIES_ROWS
 
 if TYPE_CHECKING:
-    from fractions import Fraction
+    from collections.abc import Sequence
 
+    from reference.arithmetic.protocols import EllipticArithmetic
     from reference.certified import Certified
-    from reference.problems.pendulum.problem import Pendulum
+    from reference.declaration import Solution
 
-__all__ = ["LindstedtSolution", "PeriodSeries", "lindstedt", "period_series"]
+__all__ = ["LindstedtMotion", "LindstedtSolution", "PendulumSeries", "PeriodSeries", "lindstedt", "period_series"]
+
+
+@dataclass(frozen=True, repr=False)
+class Expansion(Problem):
+    """A released pendulum, of which the expansions in powers of its amplitude are asked."""
+
+    theta0: Fraction
+    g: Fraction
+    length: Fraction
+
+    def __init__(self, theta0: Any, g: Any = 9.81, length: Any = 1.0) -> None:
+        for name, value in (("theta0", theta0), ("g", g), ("length", length)):
+            object.__setattr__(self, name, exact(value, name))
+        _ = self.pendulum
+
+    @cached_property
+    def pendulum(self) -> Pendulum:
+        """The pendulum itself."""
+        return Pendulum(self.theta0, self.g, self.length)
+
+    def _spelled(self) -> str:
+        return ", ".join(f"{name}={as_number(getattr(self, name))!r}" for name in ("theta0", "g", "length"))
+
+    def __repr__(self) -> str:
+        return f"{type(self).__name__}({self._spelled()})"
+
+    def closed_form(self, m: EllipticArithmetic) -> Expanded:
+        """The exact coefficients against the closed form."""
+        return self.expanded(m, self.pendulum.closed_form(m), series)
+
+    def quadrature_form(self) -> Expanded:
+        """Coefficients from Cauchy's integrals against mpmath's elliptic functions and integrals."""
+        return self.expanded(MPMATH, self.pendulum.quadrature_form(), contour)
+
+    def taylor_form(self, bits: int) -> Solution:
+        """The exact coefficients against the flow of the equation of motion."""
+        return ByTaylor(self, bits)
+
+    def expanded(self, m: Any, motion: Any, source: Any) -> Expanded:
+        """The rows in an arithmetic: of which motion, and where the coefficients come from."""
+        raise NotImplementedError
+
+    def _lost(self, power: int) -> int:
+        """Bits lost to a difference of about (theta0/4)^power."""
+        ratio = 4 / self.theta0
+        return power * max(0, ratio.numerator.bit_length() - ratio.denominator.bit_length()) + 8
+
+
+class Expanded(ClosedForm):
+    """Expansions of a ``motion``, whose values are of the arithmetic ``m``, with the coefficients of a ``source``."""
+
+    def __init__(self, m: Any, motion: Any, source: Any, amplitude: Fraction, order: int = 0) -> None:
+        self.m, self._motion, self._source, self._amplitude, self._order = m, motion, source, amplitude, order
+
+    def _angle(self, order: int, t: Any) -> Any:
+        solution = self._source.lindstedt(order)
+        square = self._amplitude**2
+        if sum(c * square**j for j, c in enumerate(solution.frequency_squared)) <= 0:
+            raise ValueError(
+                f"order is {order}; at theta0 = {as_number(self._amplitude)} the frequency's expansion to this order "
+                "is not positive, and there is no such motion."
+            )
+        return solution.angle(self.m, self._motion.theta0, self._motion.g, self._motion.length, t)
+
+    def period_series(self, order: int) -> Any:
+        """T_n in s."""
+        ratio = series.polynomial(self.m, self._source.period_series(order), self._motion.theta0**2)
+        return 2 * self.m.pi() / self._motion.w * ratio
+
+    def period_series_error(self, order: int) -> Any:
+        """T_n/T - 1."""
+        return self.period_series(order) / self._motion.period - 1
+
+    def lindstedt_error(self, order: int) -> Any:
+        """theta_n(T) - theta0."""
+        return self._angle(order, self._motion.period) - self._motion.theta0
+
+    def lindstedt_crossing_error(self, order: int) -> Any:
+        """theta_n(T/4), where theta is zero."""
+        return self._angle(order, self._motion.period / 4)
+
+    def lindstedt_angle(self, t: Any) -> Any:
+        """theta_n(t)."""
+        return self._angle(self._order, t)
+
+    def lindstedt_angle_error(self, t: Any) -> Any:
+        """theta_n(t) - theta(t)."""
+        return self._angle(self._order, t) - self._motion.state(t)[0]
+
+
+class Integrated:
+    """The period by the flow of the equation of motion, in mpmath's numbers."""
+
+    def __init__(self, pendulum: Pendulum, bits: int) -> None:
+        self._flow = pendulum.taylor_form(bits)
+        self.theta0, self.g, self.length = (
+            MPMATH.number(value) for value in (pendulum.theta0, pendulum.g, pendulum.length)
+        )
+        self.w = MPMATH.sqrt(self.g / self.length)
+
+    @cached_property
+    def period(self) -> Any:
+        ((period,),) = self._flow.rows("period", [None])
+        return MPMATH.number(period)
+
+    def angles(self, times: Sequence[Fraction]) -> list[Any]:
+        return [MPMATH.number(theta) for theta, _ in self._flow.rows("state", times)]
+
+
+class ByTaylor:
+    """The errors of the exact coefficients' sums against the flow."""
+
+    def __init__(self, problem: Expansion, bits: int) -> None:
+        self._motion = Integrated(problem.pendulum, bits)
+        self._form = problem.expanded(MPMATH, self._motion, series)
+
+    def rows(self, row: str, arguments: Sequence[Any]) -> list[tuple[Fraction, ...]]:
+        if row == "lindstedt_angle_error":
+            found = self._form.rows("lindstedt_angle", arguments)
+            errors = [angle - truth for (angle,), truth in zip(found, self._motion.angles(arguments), strict=True)]
+        else:
+            errors = [error for (error,) in self._form.rows(row, arguments)]
+        return [(quadrature.to_fraction(error),) for error in errors]
+
+
+class PendulumSeries(Expansion):
+    """The expansions of a pendulum released from rest at theta0, order by order, and their errors.
+
+    Args:
+        theta0: amplitude in rad, 0 < theta0 < pi.
+        g: acceleration of gravity in m/s^2, positive.
+        length: length in m, positive.
+
+    Raises:
+        ValueError: a parameter is outside its range or not finite.
+        TypeError: a parameter is no real number.
+    """
+
+    name: ClassVar[str] = "pendulum series"
+    rows: ClassVar[tuple[Row, ...]] = SERIES_ROWS
+
+    def expanded(self, m: Any, motion: Any, source: Any) -> Expanded:
+        return Expanded(m, motion, source, self.theta0)
+
+    def exact_row(self, row: str, argument: Any) -> None:
+        """No value is known to be rational."""
+
+    def working_bits(self, arguments: Sequence[Any]) -> int:
+        return self._lost(4 * max(arguments, default=0) + 5)
+
+
+@dataclass(frozen=True, repr=False)
+class LindstedtMotion(Expansion):
+    """The solution of Lindstedt and Poincare to one order, at any time, and its error.
+
+    Args:
+        theta0: amplitude in rad, 0 < theta0 < pi.
+        g: acceleration of gravity in m/s^2, positive.
+        length: length in m, positive.
+        order: powers up to theta0^(2 order + 1) are kept.
+
+    Raises:
+        ValueError: a parameter is outside its range or not finite.
+        TypeError: a parameter is no real number.
+    """
+
+    order: int
+
+    name: ClassVar[str] = "Lindstedt-Poincare solution"
+    rows: ClassVar[tuple[Row, ...]] = LINDSTEDT_ROWS
+
+    def __init__(self, theta0: Any, g: Any = 9.81, length: Any = 1.0, order: int = 1) -> None:
+        super().__init__(theta0, g, length)
+        object.__setattr__(self, "order", series.checked(order))
+
+    def __repr__(self) -> str:
+        return f"LindstedtMotion({self._spelled()}, order={self.order})"
+
+    def expanded(self, m: Any, motion: Any, source: Any) -> Expanded:
+        return Expanded(m, motion, source, self.theta0, self.order)
+
+    def within_taylor(self, row: str, arguments: Sequence[Any]) -> bool:
+        """Whether the pendulum's own state is within."""
+        del row
+        return self.pendulum.within_taylor("state", arguments)
+
+    def exact_row(self, row: str, argument: Any) -> tuple[Fraction] | None:
+        """The start; at any other time a sum of cosines of algebraic numbers, which is transcendental (Lindemann)."""
+        if argument != 0:
+            return None
+        return (self.theta0,) if row == "lindstedt_angle" else (Fraction(0),)
+
+    def working_bits(self, arguments: Sequence[Any]) -> int:
+        return self.pendulum.working_bits(arguments) + self._lost(2 * self.order + 3)
 
 
 def period_series(pendulum: Pendulum, order: int) -> PeriodSeries:

@@ -14,8 +14,7 @@ from typing import TYPE_CHECKING, Any
 from reference.declaration import ClosedForm
 from reference.once import cached_property
 from reference.problems.polar.optimality import chord_time, neighbour_excess
-from reference.problems.polar.panels import panels_of
-from reference.problems.polar.periodic import periodic_ball
+from reference.problems.polar.panels import panels_of, periodic_ball
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence

@@ -19,8 +19,7 @@ from reference.arithmetic.precision import mp
 from reference.once import cached_property
 from reference.problems.polar.extremal import Extremal
 from reference.problems.polar.optimality import chord_geometry, neighbour_rates
-from reference.problems.polar.panels import Panels, Schedule, panels_of
-from reference.problems.polar.periodic import periodic_mpmath
+from reference.problems.polar.panels import Panels, Schedule, panels_of, periodic_mpmath
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence

@@ -7,6 +7,8 @@ z^2 phi'/v^2 = sqrt(kappa), and it is the hypocycloid
     z^2 = z0^2 sin^2(psi/2) + cos^2(psi/2),   phi = atan(z0 tan(psi/2)) - z0 psi/2,   tau = sqrt(1 - z0^2) psi/2,
 
 of a circle of radius (1 - z0)/2 that rolls inside the planet (G. Venezian, Am. J. Phys. 34, 701, 1966).
+
+The hypocycloid in closed form, in any arithmetic: elementary functions alone.
 """
 
 from __future__ import annotations
@@ -14,10 +16,14 @@ from __future__ import annotations
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
+from reference.once import cached_property
+from reference.problems.polar.extremal import Extremal
+
 if TYPE_CHECKING:
     from reference.arithmetic.protocols import Arithmetic
+    from reference.problems.polar.equations import Field
 
-__all__ = ["UNIFORM_BALL", "UniformBall"]
+__all__ = ["UNIFORM_BALL", "Hypocycloid", "UniformBall"]
 
 
 class UniformBall:
@@ -102,3 +108,36 @@ class UniformBall:
 
 
 UNIFORM_BALL = UniformBall()
+
+
+class Hypocycloid(Extremal):
+    """phi = atan(z0 tan(psi/2)) - z0 psi/2 and tau = sqrt(1 - z0^2) psi/2."""
+
+    field: Field = UNIFORM_BALL
+
+    @cached_property
+    def pace(self) -> Any:
+        """tau over psi/2: sqrt(1 - z0^2)."""
+        return self.m.sqrt((1 - self.z0) * (1 + self.z0))
+
+    @cached_property
+    def half_angle(self) -> Any:
+        """(pi/2) (1 - z0): half of what the circle of radius (1 - z0)/2 rolls off in one turn."""
+        return self.m.pi() * (1 - self.z0) / 2
+
+    @property
+    def dhalf_angle_dz0(self) -> Any:
+        return -self.m.pi() / 2
+
+    @cached_property
+    def descent_time(self) -> Any:
+        return self.m.pi() * self.pace / 2
+
+    def angle(self, sine: Any, cosine: Any) -> Any:
+        return self.m.atan2(self.z0 * sine, cosine) - self.z0 * self.m.atan2(sine, cosine)
+
+    def time(self, sine: Any, cosine: Any) -> Any:
+        return self.pace * self.m.atan2(sine, cosine)
+
+    def psi_at(self, tau: Any) -> Any:
+        return 2 * tau / self.pace

@@ -1,4 +1,7 @@
-"""The fastest tunnel through a planet of uniform density, as a problem: exact parameters, proven answers."""
+"""The fastest tunnel through a planet of uniform density, as a problem: exact parameters, proven answers.
+
+What can be asked of a tunnel through a uniform planet: names, units and definitions.
+"""
 
 from __future__ import annotations
 
@@ -9,9 +12,8 @@ from reference.arithmetic.exact import exact, rational_root
 from reference.problem import APART
 from reference.problems.polar.bodies import body_of
 from reference.problems.polar.central import CentralBrachistochrone
-from reference.problems.tunnel.equations import UNIFORM_BALL
-from reference.problems.tunnel.hypocycloid import Hypocycloid
-from reference.problems.tunnel.quantities import ROWS
+from reference.problems.polar.quantities import Definitions, rows_of
+from reference.problems.tunnel.equations import UNIFORM_BALL, Hypocycloid
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -20,7 +22,21 @@ if TYPE_CHECKING:
     from reference.declaration import Row
     from reference.problems.polar.equations import Field
 
-__all__ = ["Tunnel"]
+__all__ = ["ROWS", "Tunnel"]
+
+ROWS = rows_of(
+    Definitions(
+        height="z^2 = (1 + z0^2)/2 + ((1 - z0^2)/2) cos(psi)",
+        phi="phi = atan(z0 tan(psi/2)) - z0 psi/2, continuous in psi",
+        tau="tau = sqrt(1 - z0^2) psi/2",
+        rate="z'' = -z + kappa (1 - z^4)/z^3, phi' = sqrt(kappa) (1 - z^2)/z^2",
+        kappa="kappa = z0^2/(1 - z0^2)",
+        half_angle="(pi/2) (1 - z0)",
+        descent_time="(pi/2) sqrt(1 - z0^2), in units of sqrt(r0/g)",
+        time_unit="sqrt(r0/g)",
+        setting="the density the same everywhere",
+    )
+)
 
 
 @dataclass(frozen=True, repr=False)
