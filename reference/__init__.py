@@ -5,6 +5,8 @@ from __future__ import annotations
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
+from reference.version import __version__
+
 if TYPE_CHECKING:
     import os
 
@@ -30,8 +32,6 @@ __all__ = [
     "__version__",
     "load",
 ]
-
-__version__ = "0.1.0"
 
 _HOMES = {
     "Certified": "reference.certified",

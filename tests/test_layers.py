@@ -88,9 +88,51 @@ def test_every_name_that_a_module_promises_is_there(name):
     assert not missing
 
 
+LAYERS = (
+    ("reference.names", "reference.once", "reference.version"),
+    ("reference.arithmetic",),
+    ("reference.constants", "reference.row_domains", "compare.methods"),
+    ("reference.declaration",),
+    ("reference.routes",),
+    ("reference.certified",),
+    ("reference.problem",),
+    ("reference.command", "reference.family", "reference.orbits"),
+    ("reference.problems",),
+    ("reference.dataset",),
+    ("reference",),
+    ("compare.march",),
+    ("compare.measure",),
+    ("compare.show", "compare.study"),
+    ("compare.claims", "compare.files", "compare.solvers", "compare.sources", "compare.studies"),
+    ("compare.report",),
+    ("compare",),
+    ("compare.arguments",),
+    ("compare.__main__", "reference.__main__"),
+)
+"""Rooms, folders or modules beside them, in the order in which the work goes: each imports of those above it alone."""
+ROOMS = {room: layer for layer, rooms in enumerate(LAYERS) for room in rooms}
+
+
+def room_of(name: str) -> str:
+    """The folder or module that a dotted name lies in: the package itself for what it holds by name."""
+    second = ".".join(name.split(".")[:2])
+    return second if second in ROOMS else name.split(".", maxsplit=1)[0]
+
+
+def test_every_source_has_its_room():
+    known = {name.partition(".")[0]: name for name in ROOMS}
+    assert set(known) == set(PACKAGES)
+    for path in SOURCES:
+        name = ".".join(path.relative_to(ROOT).with_suffix("").parts[:2])
+        assert name in ROOMS or name.endswith(".__init__"), f"{path} lies in no room"
+
+
 @pytest.mark.parametrize("path", SOURCES, ids=id_of)
-def test_a_module_is_one_idea_of_readable_length(path):
-    assert len(path.read_text(encoding="utf-8").splitlines()) <= 300
+def test_a_room_imports_only_of_those_before_it(path):
+    name = ".".join(path.relative_to(ROOT).with_suffix("").parts)
+    room = room_of(name.removesuffix(".__init__"))
+    for other in {room_of(found) for found in imports(path) if found.split(".")[0] in PACKAGES} - {room}:
+        assert ROOMS[other] < ROOMS[room], f"{path} imports {other}"
 
 
 @pytest.mark.parametrize("package", PACKAGES)

@@ -15,7 +15,6 @@ from importlib.metadata import version as installed
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-import reference
 from reference.command.executors import opened, results
 from reference.dataset.blocks import PlaceError, Result, compute, partial, place_of
 from reference.dataset.catalogue import PROFILES
@@ -26,6 +25,7 @@ from reference.dataset.files import destination, replacing, sha256, temporaries
 from reference.dataset.writer import writing
 from reference.names import is_grid_file, unknown
 from reference.routes.agreement import ROUTES
+from reference.version import __version__
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
@@ -73,7 +73,7 @@ def build(
     made_with = provenance()
     before = Standing.of(target)
     try:
-        with partial(target, plan.identity(reference.__version__)) as finished:
+        with partial(target, plan.identity(__version__)) as finished:
             _ensure_space(plan, target)
             _prove(plan, finished, jobs, executor, progress or (lambda _done, _all: None))
             return _write(plan, target, finished, made_with)
@@ -182,7 +182,7 @@ def _write(plan: Plan, target: Path, finished: Partial, made_with: Mapping[str, 
         with replacing(target) as temporary:
             with writing(temporary, plan) as writer:
                 _fill(plan, writer, finished)
-                fingerprint = writer.finish(reference.__version__, plan.profile, made_with)
+                fingerprint = writer.finish(__version__, plan.profile, made_with)
             digest = sha256(temporary)
             note_checksum(target, None)
         note_checksum(target, digest)
