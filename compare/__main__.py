@@ -56,15 +56,15 @@ def _command(words: Sequence[str] | None = None) -> int:
     elif request.command == "solvers":
         return _solvers(request)
     else:
-        _print(_shown(request, _study, "compare"))
+        _print(_shown(request, _study, "compare.show.study", "compare.show.plot"))
     return 0
 
 
-def _shown(request: Request, run_study: Callable[..., Any], home: str) -> str:
-    """Run a study, write what is to be written, and return the tables; ``home`` has the modules that show it."""
+def _shown(request: Request, run_study: Callable[..., Any], table: str, plot: str) -> str:
+    """Run a study, write what is to be written, and return the tables, by the modules of its tables and its plots."""
     from compare.show import render as rendering
 
-    tables = import_module(f"{home}.table").TABLES
+    tables = import_module(table).TABLES
     out = request.out
     if out is None and request.plots:
         out = DEFAULT_FOLDER.format(problem=request.command)
@@ -82,7 +82,7 @@ def _shown(request: Request, run_study: Callable[..., Any], home: str) -> str:
             if results is not None and request.plots:
                 if progress is not None:
                     progress("drawing")
-                results.write(import_module(f"{home}.plot").files(study))
+                results.write(import_module(plot).files(study))
     if results is not None and not request.quiet:
         print(f"wrote {', '.join(results.names)} into {results.target}", file=sys.stderr)
     return rendering.render(study, tables, request.form, width)
@@ -137,7 +137,7 @@ def _solvers(request: Request) -> int:
         studies.append(_solver_study(request, progress))
         return studies[-1]
 
-    _print(_shown(request, kept, "compare.solvers"))
+    _print(_shown(request, kept, "compare.solvers.table", "compare.solvers.plot"))
     if studies[-1].scored:
         return 0
     print("error: none of these solvers could be scored; the tables say why.", file=sys.stderr)
