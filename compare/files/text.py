@@ -8,12 +8,13 @@ from collections import deque
 from itertools import chain, islice
 from typing import TYPE_CHECKING
 
+from compare.files.block import Blocks
 from compare.files.chunk import Chunk, Row
 from compare.files.dialect import Dialect, is_numeric, is_rule, read_head, trimmed
 from compare.files.ending import Ending
 from compare.files.exact_rows import Exact, Times
 from compare.files.json_rows import is_json, json_table
-from compare.files.lines import STANDARD_INPUT, Blocks, Lines, opened, refuse_undecodable
+from compare.files.lines import STANDARD_INPUT, Lines, opened, refuse_undecodable
 from reference.names import short
 
 if TYPE_CHECKING:

@@ -187,7 +187,7 @@ def test_files_of_an_older_run_are_replaced_together_or_not_at_all(tmp_path):
 
 KILLED = """
 import os, sys
-from compare import output
+from compare.show import output
 calls = iter(range(int(sys.argv[1]), -1, -1))
 def mortal(function):
     def called(*args, **kwargs):

@@ -155,9 +155,10 @@ def test_a_full_disk_leaves_the_old_file_and_nothing_else(tmp_path, limit):
     assert len(before["x.h5"]) > 20_000
     program = textwrap.dedent(f"""
         import resource, signal
-        from reference import build as building, catalogue
+        from reference.dataset import build as building
         from reference.problems.pendulum import family as groups
-        from reference.dataset.plan import Group, Plan
+        from reference.dataset.plan import Plan
+        from reference.family import Group
         times = [0.0, 1.0, 2.0**20]
         signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
         resource.setrlimit(resource.RLIMIT_FSIZE, ({limit}, {limit}))

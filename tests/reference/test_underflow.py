@@ -45,8 +45,9 @@ import h5py, io, sys
 import numpy as np
 from reference.dataset.build import build
 from reference.problems.pendulum import family as groups
-from reference.dataset.plan import Group, Plan
-from reference.dataset import load
+from reference.dataset.plan import Plan
+from reference.family import Group
+from reference.dataset.reader import load
 from reference.dataset.fingerprint import fingerprint
 from reference.dataset.verify import verify
 inputs = {"amplitude": [0.5, 2.0], "time": [0.0, 1e-310, 1e299, 2.5e300]}
