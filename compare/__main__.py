@@ -62,7 +62,7 @@ def _command(words: Sequence[str] | None = None) -> int:
 
 def _shown(request: Request, run_study: Callable[..., Any], table: str, plot: str) -> str:
     """Run a study, write what is to be written, and return the tables, by the modules of its tables and its plots."""
-    from compare.show import render as rendering
+    from compare.show import render
 
     tables = import_module(table).TABLES
     out = request.out
@@ -78,14 +78,14 @@ def _shown(request: Request, run_study: Callable[..., Any], table: str, plot: st
         with _progress(request.quiet) as progress:
             study = run_study(request, progress)
             if results is not None:
-                results.write(rendering.files(study, tables, request.form, width))
+                results.write(render.files(study, tables, request.form, width))
             if results is not None and request.plots:
                 if progress is not None:
                     progress("drawing")
                 results.write(import_module(plot).files(study))
     if results is not None and not request.quiet:
         print(f"wrote {', '.join(results.names)} into {results.target}", file=sys.stderr)
-    return rendering.render(study, tables, request.form, width)
+    return render.render(study, tables, request.form, width)
 
 
 def _check(request: Request) -> int:
@@ -158,7 +158,7 @@ def _report(request: Request) -> str:
     """Write a report, or go on with one that was interrupted, and return its tables."""
     from compare.report import table
     from compare.report.run import plan, run
-    from compare.show import render as rendering
+    from compare.show import render
     from reference.command.terminal import progress_bar
 
     wanted, out = plan(**request.options["plan"]), request.out or ""
@@ -166,7 +166,7 @@ def _report(request: Request) -> str:
         found = run(wanted, out, jobs=request.options["jobs"], executor=request.options["executor"], progress=progress)
     if not request.quiet:
         print(f"wrote report.md and what goes with it into {out}", file=sys.stderr)
-    return rendering.render(found, table.TABLES, request.form, _width())
+    return render.render(found, table.TABLES, request.form, _width())
 
 
 def _published(request: Request) -> str:
@@ -200,10 +200,10 @@ def _listing(form: str) -> str:
 
 def _method(name: str, form: str) -> str:
     from compare.methods import find
-    from compare.show import method_text as tableau_text
+    from compare.show import method_text
     from compare.show.method import describe
 
-    return tableau_text.render(describe(find(name)), form)
+    return method_text.render(describe(find(name)), form)
 
 
 def _width() -> int:

@@ -6,7 +6,7 @@ import json
 import math
 from typing import TYPE_CHECKING, Any
 
-from compare.show import text_table as grid
+from compare.show import text_table
 from compare.show.text_table import Column, Grid, Section
 
 if TYPE_CHECKING:
@@ -48,7 +48,7 @@ def _table(name: str, title: str, order: Order) -> str:
         )
         for cell in order.cells
     )
-    return grid.text(Section(name, title, (Grid(columns, rows),), NOTE))
+    return text_table.text(Section(name, title, (Grid(columns, rows),), NOTE))
 
 
 def json_text(found: Check) -> str:

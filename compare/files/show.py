@@ -9,7 +9,7 @@ import math
 import re
 from typing import TYPE_CHECKING, Any
 
-from compare.show import text_table as grid
+from compare.show import text_table
 from compare.show.text_table import Column, Grid, Section
 
 if TYPE_CHECKING:
@@ -60,9 +60,11 @@ def rendered(score: Score, form: str) -> str:
     shown = len(score.points)
     legend = NOTE if shown == score.rows else f"{NOTE} {shown} of {score.rows} rows are shown."
     section = Section("score", title, tables, " ".join((legend, *score.notes)))
-    layout = {"text": grid.text, "markdown": grid.markdown, "latex": grid.latex}[form]
+    layout = {"text": text_table.text, "markdown": text_table.markdown, "latex": text_table.latex}[form]
     summary = summary_line(score)
-    return f"{layout(section)}\n{grid.markdown_text(summary) if form == 'markdown' else _comment(summary, form)}\n"
+    return (
+        f"{layout(section)}\n{text_table.markdown_text(summary) if form == 'markdown' else _comment(summary, form)}\n"
+    )
 
 
 def _comment(summary: str, form: str) -> str:

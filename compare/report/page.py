@@ -6,8 +6,7 @@ from typing import TYPE_CHECKING
 
 from compare.report import plot
 from compare.report.table import COLUMNS, case_sections, cases, closing
-from compare.show import render as machine
-from compare.show import text_table as grid
+from compare.show import render, text_table
 from compare.show.render import header
 
 if TYPE_CHECKING:
@@ -21,10 +20,10 @@ WIDTH = 100
 
 def files(report: Report) -> dict[str, bytes]:
     """The page, its figures, and every number for programs, by file name."""
-    tables = machine.csv_text(report, COLUMNS)
+    tables = render.csv_text(report, COLUMNS)
     return {
         "report.md": page(report).encode(),
-        f"{report.problem}.json": machine.json_text(report, COLUMNS).encode(),
+        f"{report.problem}.json": render.json_text(report, COLUMNS).encode(),
         **{f"{report.problem}-{name}.csv": text.encode() for name, text in tables.items()},
         **plot.files(report),
     }
@@ -32,10 +31,13 @@ def files(report: Report) -> dict[str, bytes]:
 
 def page(report: Report) -> str:
     """The page: what was asked for, then each problem with its figures and tables, then what failed."""
-    parts = [f"# {TITLE}\n", "\n".join(f"- **{name}**: {grid.markdown_text(fact)}" for name, fact in header(report))]
+    parts = [
+        f"# {TITLE}\n",
+        "\n".join(f"- **{name}**: {text_table.markdown_text(fact)}" for name, fact in header(report)),
+    ]
     for case, points in cases(report):
-        parts.append(f"\n## {grid.markdown_text(case)}\n")
+        parts.append(f"\n## {text_table.markdown_text(case)}\n")
         parts += [f"![{title}, {case}]({name}.svg)\n" for name, title in plot.names(points[0]).items()]
-        parts += [grid.markdown(section) for section in case_sections(report, case, points)]
-    parts += [grid.markdown(section) for section in closing(report, WIDTH)]
+        parts += [text_table.markdown(section) for section in case_sections(report, case, points)]
+    parts += [text_table.markdown(section) for section in closing(report, WIDTH)]
     return "\n".join(parts)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from compare.report.families import family
-from compare.show import text_table as grid
+from compare.show import text_table
 from compare.show.render import Tables
 from compare.show.text_table import Column, Grid, Section
 
@@ -71,7 +71,7 @@ def _costs(
     rows = tuple((name, *(least(name, t) for t in TARGETS)) for name in dict.fromkeys(p.name for p in points))
     units = family(points[0].family).error_units
     whole = f"{title}: the least of those measured whose largest error{f', in {units},' if units else ''} is below"
-    return Section(grid.slug(title.lower()), whole, (Grid(columns, rows),), "\n".join(notes))
+    return Section(text_table.slug(title.lower()), whole, (Grid(columns, rows),), "\n".join(notes))
 
 
 def closing(report: Report, width: int) -> Iterator[Section]:
@@ -90,7 +90,7 @@ def closing(report: Report, width: int) -> Iterator[Section]:
     ):
         if rows:
             columns = [Column(label, left=True) for label in labels]
-            yield Section(name, title, (grid.folded(columns, rows, width),))
+            yield Section(name, title, (text_table.folded(columns, rows, width),))
 
 
 TABLES = Tables(sections, COLUMNS)

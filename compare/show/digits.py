@@ -7,7 +7,7 @@ import math
 from typing import TYPE_CHECKING, Any
 
 from compare.measure.records import FLOOR_FACTOR
-from compare.show import text_table as grid
+from compare.show import text_table
 from compare.show.text_table import Column, Grid
 
 if TYPE_CHECKING:
@@ -100,7 +100,7 @@ def of_steps(
                 row.extend([""] * len(labels) if record is None else cells(record))
         return Grid(tuple(columns), tuple(map(tuple, rows)))
 
-    return build(representative(list(steps_of(records)), lambda steps: grid.text_width(build(steps)) <= width))
+    return build(representative(list(steps_of(records)), lambda steps: text_table.text_width(build(steps)) <= width))
 
 
 def split(
@@ -109,7 +109,7 @@ def split(
     """Grids no wider than the width; methods of one order stay together where they fit, and orders share a grid."""
 
     def fits(names: Sequence[str]) -> bool:
-        return len(names) <= 1 or grid.text_width(build(names)) <= width
+        return len(names) <= 1 or text_table.text_width(build(names)) <= width
 
     groups: list[list[str]] = []
     for order in sorted({declared.get(method, 0) for method in methods}):

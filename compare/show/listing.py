@@ -8,7 +8,7 @@ import json
 import textwrap
 from typing import TYPE_CHECKING
 
-from compare.show import text_table as grid
+from compare.show import text_table
 from compare.show.text_table import Column, Grid, Section
 
 if TYPE_CHECKING:
@@ -41,7 +41,7 @@ def render(methods: Iterable[Method], form: str = "text") -> str:
         cells = [line for row in cells for line in _folded(row)]
     columns = tuple(Column(field, left=field not in {"order", "stages"}) for field in FIELDS)
     section = Section("methods", f"{len(rows)} methods", (Grid(columns, tuple(cells)),))
-    return {"text": grid.text, "markdown": grid.markdown, "latex": grid.latex}[form](section)
+    return {"text": text_table.text, "markdown": text_table.markdown, "latex": text_table.latex}[form](section)
 
 
 def _folded(row: tuple[str, ...]) -> Iterator[tuple[str, ...]]:

@@ -7,7 +7,7 @@ import textwrap
 from typing import TYPE_CHECKING, Any
 
 from compare.methods.order.algebraic import Algebraic
-from compare.show import text_table as grid
+from compare.show import text_table
 from compare.show.method import Butcher, closed_form, decimal_form, exact_form, latex_form
 from compare.show.text_table import Column, Grid, Section
 
@@ -43,7 +43,7 @@ def _text(description: Description, width: int) -> str:
             blocks += [table.title] if table.title else []
             blocks.append(_butcher_text(table, width))
         else:
-            blocks.append(grid.text(_section(table)).rstrip("\n"))
+            blocks.append(text_table.text(_section(table)).rstrip("\n"))
     return "\n\n".join(blocks) + "\n"
 
 
@@ -105,12 +105,12 @@ def _cell(value: str | Coefficient) -> str:
 
 
 def _markdown(description: Description) -> str:
-    facts = [f"- **{label}**: {grid.markdown_text(_word(value))}" for label, value in description.facts]
-    head = f"## {grid.markdown_text(description.name)}\n\n" + "\n".join(facts) + "\n"
+    facts = [f"- **{label}**: {text_table.markdown_text(_word(value))}" for label, value in description.facts]
+    head = f"## {text_table.markdown_text(description.name)}\n\n" + "\n".join(facts) + "\n"
     sections = (
         _butcher_section(table) if isinstance(table, Butcher) else _section(table) for table in description.tables
     )
-    return "\n".join([head, *map(grid.markdown, sections)])
+    return "\n".join([head, *map(text_table.markdown, sections)])
 
 
 def _butcher_section(table: Butcher) -> Section:

@@ -15,7 +15,7 @@ import textwrap
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from compare.show import text_table as grid
+from compare.show import text_table
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator
@@ -209,13 +209,13 @@ def render(study: Any, tables: Tables, form: str = "text", width: int = 100) -> 
         raise ValueError(f"the format {form!r} is not one of {', '.join(FORMATS)}")
     parts = tables.sections(study, _PAGE_WIDTH.get(form, width))
     if form == "markdown":
-        bullets = "\n".join(f"- **{name}**: {grid.markdown_text(fact)}" for name, fact in header(study))
-        return "\n".join([f"## {study.problem}\n\n{bullets}\n", *map(grid.markdown, parts)])
+        bullets = "\n".join(f"- **{name}**: {text_table.markdown_text(fact)}" for name, fact in header(study))
+        return "\n".join([f"## {study.problem}\n\n{bullets}\n", *map(text_table.markdown, parts)])
     if form == "latex":
         facts = (f"{name}: {fact}" for name, fact in header(study))
         comment = "\n".join(f"% {line}" for line in ("needs \\usepackage{booktabs}", *facts))
-        return "\n".join([comment + "\n", *map(grid.latex, parts)])
-    return "\n\n".join([_header_text(study, width) + "\n", *map(grid.text, parts)])
+        return "\n".join([comment + "\n", *map(text_table.latex, parts)])
+    return "\n\n".join([_header_text(study, width) + "\n", *map(text_table.text, parts)])
 
 
 def files(study: Any, tables: Tables, form: str = "text", width: int = 100) -> dict[str, bytes]:

@@ -13,7 +13,7 @@ from operator import attrgetter
 from typing import TYPE_CHECKING, Any
 
 from compare.show import render as rendering
-from compare.show import text_table as grid
+from compare.show import text_table
 from compare.show.digits import (
     DOUBT,
     NOTES,
@@ -57,7 +57,7 @@ def _norms(study: Study, case: Case, declared: dict[str, int], width: int) -> It
     unit = f", in {case.unit}" if case.unit else ""
     rate = f"; v: of the velocity{', per second' if case.unit else ', relative to its largest'}" if velocity else ""
     yield Section(
-        name=f"norms-{grid.slug(case.label)}",
+        name=f"norms-{text_table.slug(case.label)}",
         title=f"Norms, {case.label}: {case.error}{unit}, its correct digits, and the work{rate}",
         grids=tuple(grids),
         note=legend(grids),
@@ -81,7 +81,7 @@ def _phase(study: Study, case: Case, declared: dict[str, int], width: int) -> It
         return
     grids = by_steps(found, declared, width, _phase_cell)
     yield Section(
-        name=f"phase-{grid.slug(case.label)}",
+        name=f"phase-{text_table.slug(case.label)}",
         title=f"Phase, {case.label}: largest |phase - exact| over the sample times, in rad, 2 pi a period",
         grids=grids,
         note=legend(grids, _LOST_NOTE if any(phase.lost for phase in found) else ""),
@@ -106,7 +106,9 @@ def _phase_cell(phase: Phase) -> list[str]:
 def _growth(study: Study, case: Case, declared: dict[str, int], width: int) -> Iterator[Section]:
     found = [growth for growth in study.growth or () if growth.case == case]
     if found and all(math.isnan(growth.exponent) for growth in found):
-        yield Section(name=f"growth-{grid.slug(case.label)}", title=f"Growth, {case.label}: {_no_law(case)}", grids=())
+        yield Section(
+            name=f"growth-{text_table.slug(case.label)}", title=f"Growth, {case.label}: {_no_law(case)}", grids=()
+        )
         return
     for quantity in QUANTITIES:
         records = [growth for growth in found if growth.quantity == quantity]
@@ -116,7 +118,7 @@ def _growth(study: Study, case: Case, declared: dict[str, int], width: int) -> I
             nan = any(math.isnan(growth.exponent) for growth in records)
             notes = _GROWTH_NOTE, NOTES[DOUBT] if doubt else "", _GROWTH_NAN if nan else ""
             yield Section(
-                name=f"growth-{quantity}-{grid.slug(case.label)}",
+                name=f"growth-{quantity}-{text_table.slug(case.label)}",
                 title=f"Growth, {case.label}: law of the {_WORDS[quantity]} over time",
                 grids=(found_grid,),
                 note="\n".join(filter(None, notes)),
@@ -176,7 +178,7 @@ def plain(
     if records:
         grids = by_steps(records, *layout, lambda record: [starred(*numbers(record))])
         missing = _MISSING.get(name, "") if any(math.isnan(numbers(record)[0]) for record in records) else ""
-        yield Section(f"{name}-{grid.slug(records[0].case.label)}", title, grids, legend(grids, missing))
+        yield Section(f"{name}-{text_table.slug(records[0].case.label)}", title, grids, legend(grids, missing))
 
 
 _MISSING = {"period": "nan means that two passages were not found within the march"}
@@ -241,7 +243,7 @@ def _error_section(cells: Sequence[Cell], declared: dict[str, int], width: int) 
     what = f"largest {case.error} over the sample {case.samples}{f', in {case.unit},' if case.unit else ''}"
     grids = by_steps(cells, declared, width, _error_cell, (Column("error"), Column("order", left=True)))
     return Section(
-        name=f"error-vs-n-{grid.slug(case.label)}",
+        name=f"error-vs-n-{text_table.slug(case.label)}",
         title=f"Error against N, {case.label}: {what} and local order",
         grids=grids,
         note=legend(grids, _NAN_NOTE if any(math.isnan(cell.max_error) for cell in cells) else ""),
@@ -278,7 +280,7 @@ def _order_section(fits: Sequence[FittedOrder]) -> Section:
         "- means fewer than three cells in the asymptotic range" if any(f.fitted_order is None for f in fits) else ""
     )
     return Section(
-        name=f"order-{grid.slug(at)}",
+        name=f"order-{text_table.slug(at)}",
         title=f"Order, {at}: slope of log(error) against log(h) over the asymptotic range, ± spread of local slopes",
         grids=grids,
         note=legend(grids, _FAR_NOTE if any(map(_is_far, fits)) else "", missing),
@@ -308,7 +310,7 @@ def _slope_section(drifts: Sequence[Drift], declared: dict[str, int], width: int
     labels = [*(["relative"] if case.energy else []), f"slope per {case.cycle}"]
     grids = (of_steps(drifts, declared, width, labels, cells),)
     return Section(
-        name=f"energy-slope-{grid.slug(case.label)}",
+        name=f"energy-slope-{text_table.slug(case.label)}",
         title=f"{name} trend, {case.label}: {'max |E - E0|/|E0|, and ' if case.energy else ''}{slope}",
         grids=grids,
         note=legend(grids),

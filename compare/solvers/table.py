@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from compare.show import text_table as grid
+from compare.show import text_table
 from compare.show.render import Tables
 from compare.show.text_table import Column, Grid, Section
 from compare.solvers.solver import CALLS
@@ -60,7 +60,7 @@ def _who(study: SolverStudy, width: int) -> Iterator[Section]:
     if here:
         rows = [(entry.solver, entry.version or "", entry.call) for entry in here]
         columns = Column("solver", left=True), Column("version", left=True), Column("call", left=True)
-        yield Section("solvers", "Solvers, and how each is called", (grid.folded(columns, rows, width),))
+        yield Section("solvers", "Solvers, and how each is called", (text_table.folded(columns, rows, width),))
     missing = {entry.package: entry.install for entry in study.solvers if entry.version is None}
     if missing:
         labels = Column("package", left=True), Column("what installs it", left=True)
@@ -78,13 +78,15 @@ def _cells(study: SolverStudy, cells: Sequence[SolverCell], at: str, width: int)
         return _digits(cell.max_error) + (OTHER if _is_other(cell, dials[cell.solver]) else "")
 
     title = f"Error against rtol, {at}: largest |theta - exact|, in rad"
-    yield _table(f"error-vs-rtol-{grid.slug(at)}", title, cells, error, width, notes)
+    yield _table(f"error-vs-rtol-{text_table.slug(at)}", title, cells, error, width, notes)
     counts = {entry.solver: entry.counts for entry in study.solvers}
     strange = [f"{name}: {counts[name]}" for name in dict.fromkeys(c.solver for c in cells) if counts[name] != CALLS]
     title = f"Evaluations against rtol, {at}: {CALLS}"
-    yield _table(f"evaluations-{grid.slug(at)}", title, cells, lambda cell: _count(cell.evaluations), width, strange)
+    yield _table(
+        f"evaluations-{text_table.slug(at)}", title, cells, lambda cell: _count(cell.evaluations), width, strange
+    )
     title = f"Seconds against rtol, {at}"
-    yield _table(f"seconds-{grid.slug(at)}", title, cells, lambda cell: _digits(cell.seconds), width)
+    yield _table(f"seconds-{text_table.slug(at)}", title, cells, lambda cell: _digits(cell.seconds), width)
 
 
 def _is_other(cell: SolverCell, dial: str) -> bool:
@@ -110,7 +112,7 @@ def _events(events: Sequence[EventCell], at: str, width: int) -> Section:
     first = [event.solver for event in events if event.first_only]
     notes = [_EVENTS_NOTE] if any(event.matched < event.expected or event.spurious for event in events) else []
     notes += [f"the first passage only: {', '.join(dict.fromkeys(first))}"] if first else []
-    return _table(f"events-{grid.slug(at)}", title, events, entry, width, notes)
+    return _table(f"events-{text_table.slug(at)}", title, events, entry, width, notes)
 
 
 def _said(study: SolverStudy, width: int) -> Iterator[Section]:
@@ -130,7 +132,7 @@ def _said(study: SolverStudy, width: int) -> Iterator[Section]:
     asked = sorted({cell.rtol for cell in study.error_vs_rtol}, reverse=True)
     rows = [(who, _runs([asked.index(rtol) for rtol in at], asked), what) for (who, what), at in said.items()]
     columns = Column("solver", left=True), Column("rtol", left=True), Column("what it said", left=True)
-    yield Section("said", "What the solvers said", (grid.folded(columns, rows, width),))
+    yield Section("said", "What the solvers said", (text_table.folded(columns, rows, width),))
 
 
 def _runs(places: Sequence[int], asked: Sequence[float]) -> str:
@@ -165,7 +167,7 @@ def _table(
     tolerances = list(dict.fromkeys(cell.rtol for cell in cells))
     for parts in range(1, len(tolerances) + 1):
         grids = [build(part) for part in _parts(tolerances, parts)]
-        if all(grid.text_width(one) <= width for one in grids):
+        if all(text_table.text_width(one) <= width for one in grids):
             break
     return Section(name, title, tuple(grids), "\n".join(notes))
 

@@ -13,7 +13,7 @@ from typing import Any
 import pytest
 
 from compare.march import march, trace
-from compare.show import digits as layout
+from compare.show import digits
 from compare.show import study as table
 from compare.study import Scored, score_all
 from reference import Pendulum, PolarBrachistochrone, Tautochrone
@@ -55,9 +55,9 @@ def elsewhere() -> Any:
 
 def same(value: float, rounding: float, other: float, forms: tuple[str, ...] = ERRORS) -> bool:
     """Whether another number reads as this one is printed, with as many digits, or a mark says that it may not."""
-    text = layout.decided(value, rounding, forms)
+    text = digits.decided(value, rounding, forms)
     decimals = len(text.partition("e")[0].partition(".")[2])
-    return layout.DOUBT in text or text == format(other, f".{decimals}{forms[0][-1]}")
+    return digits.DOUBT in text or text == format(other, f".{decimals}{forms[0][-1]}")
 
 
 def test_the_step_is_the_same_number() -> None:
@@ -79,7 +79,7 @@ def differing(found: Scored, others: Scored) -> list[tuple[str, int, str]]:
         values = (drift.max_drift_above_rest, drift.rounding), (drift.slope_per_period, drift.slope_rounding)
         twins = twin.max_drift_above_rest, twin.slope_per_period
         for (value, rounding), its in zip(values, twins, strict=True):
-            if not layout.is_rounding(value, rounding) and not same(value, rounding, its):
+            if not digits.is_rounding(value, rounding) and not same(value, rounding, its):
                 bad.append((drift.method, drift.n, drift.case.label))
     return bad
 
@@ -89,7 +89,7 @@ def test_numbers_without_a_mark_read_as_in_binary128() -> None:
     assert differing(found, scored("float128")) == []
     told = [cell for cell in found.cells if not cell.floor]
     assert len(told) > 0.6 * len(found.cells)
-    assert sum(layout.DOUBT not in layout.scientific(cell.max_error, cell.rounding) for cell in told) > 0.9 * len(told)
+    assert sum(digits.DOUBT not in digits.scientific(cell.max_error, cell.rounding) for cell in told) > 0.9 * len(told)
 
 
 def test_numbers_without_a_mark_read_as_on_another_machine(elsewhere: Scored) -> None:

@@ -24,7 +24,7 @@ from compare.report.page import files, page
 from compare.report.records import Report, WorkPoint
 from compare.report.run import Kept, Task, plan, run, work
 from compare.report.table import TABLES, sections
-from compare.show import render as rendering
+from compare.show import render
 from reference import Descent, Pendulum
 from reference.dataset.blocks import BusyError, PlaceError, partial
 
@@ -369,5 +369,5 @@ def test_a_mistake_is_one_sentence_exit_code_2_and_leaves_nothing(words, says, t
 
 
 def test_the_tables_fit_a_terminal():
-    text = rendering.render(MADE, TABLES, "text", 100)
+    text = render.render(MADE, TABLES, "text", 100)
     assert max(map(len, text.splitlines())) <= 110

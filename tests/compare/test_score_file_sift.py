@@ -9,8 +9,7 @@ import numpy as np
 import pytest
 
 from compare.__main__ import main
-from compare.files import bounds
-from compare.files import fast_path as sift
+from compare.files import bounds, fast_path
 from compare.files.arrays import Sliced, chunks
 from compare.files.chunk import Chunk, Doubles, Row
 from compare.files.columns import Columns
@@ -192,7 +191,7 @@ def test_no_exact_row_is_outside_its_bounds(problem):
     judge.expect([53 * math.log10(2)])
     points = judge.some(range(400), chunked(numbers, 400)[0].rows())
     for place, point in enumerate(points):
-        sift._hold(point, found, place)
+        fast_path._hold(point, found, place)
 
 
 def test_the_bounds_are_near_what_they_bound():

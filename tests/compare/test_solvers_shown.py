@@ -11,7 +11,7 @@ from dataclasses import replace
 import pytest
 
 from compare.__main__ import main
-from compare.show import render as rendering
+from compare.show import render
 from compare.show.text_table import text_width
 from compare.solvers import plot
 from compare.solvers.records import EventCell, SolverCell, SolverEntry, SolverStudy
@@ -77,7 +77,7 @@ def made_study():
 
 
 STUDY = made_study()
-TEXT = rendering.render(STUDY, TABLES, "text")
+TEXT = render.render(STUDY, TABLES, "text")
 
 
 def section(name):
@@ -135,14 +135,14 @@ def test_tables_keep_to_the_width_they_are_given(width):
 
 
 def test_programs_get_every_number_and_nulls_where_there_is_none():
-    found = json.loads(rendering.render(STUDY, TABLES, "json"))
+    found = json.loads(render.render(STUDY, TABLES, "json"))
     first, failed = (
         next(r for r in found["tables"]["error_vs_rtol"] if r["solver"] == s) for s in ("good.RK", "bad.BDF")
     )
     assert (first["max_error"], first["evaluations"]) == (0.02, 398)
     assert (failed["max_error"], failed["used"], failed["failure"]) == (None, None, "no convergence at all")
     assert [r["version"] for r in found["tables"]["solvers"]][-2:] == [None, None]
-    files = rendering.files(STUDY, TABLES, "csv")
+    files = render.files(STUDY, TABLES, "csv")
     assert set(files) == {f"solvers-pendulum-{name}.csv" for name in ("solvers", "error_vs_rtol", "events")}
     lines = list(csv.DictReader(io.StringIO(files["solvers-pendulum-events.csv"].decode())))
     assert (lines[0]["matched"], lines[0]["first_only"]) == ("9", "false")
@@ -150,7 +150,7 @@ def test_programs_get_every_number_and_nulls_where_there_is_none():
 
 @pytest.mark.parametrize("form", ["markdown", "latex"])
 def test_documents_have_every_section(form):
-    found = rendering.render(STUDY, TABLES, form)
+    found = render.render(STUDY, TABLES, form)
     for part in sections(STUDY):
         assert part.title.split(",")[0] in found
 

@@ -14,9 +14,8 @@ import pytest
 from made_study import METHODS, made_case, made_study
 
 from compare.measure.records import Defect, Growth, OwnPeriod, Phase, Study
-from compare.show import render as machine
+from compare.show import render, text_table
 from compare.show import study as table
-from compare.show import text_table as grid
 from compare.show.text_table import Column, Grid, Section
 
 STUDY = made_study()
@@ -94,7 +93,7 @@ def test_json_has_the_promised_keys_and_every_bit():
     assert list(found) == ["problem", "parameters", "reference", "engine", "tables"]
     assert list(found["tables"]) == ["error_vs_n", "order", "energy_drift"]
     for name in found["tables"]:
-        keys = [key if key != "case" else "theta0" for key in machine.COLUMNS[name]]
+        keys = [key if key != "case" else "theta0" for key in render.COLUMNS[name]]
         records = getattr(STUDY, name)
         assert len(found["tables"][name]) == len(records)
         for row, record in zip(found["tables"][name], records, strict=True):
@@ -156,7 +155,7 @@ def test_latex_tabulars_are_balanced_and_escaped():
 
 def test_latex_sets_powers_of_ten():
     section = Section("a", "t", (Grid((Column("x"),), (("-1.25e-05",), ("nan",))),))
-    assert r"$-1.25\times10^{-5}$ \\" in grid.latex(section)
+    assert r"$-1.25\times10^{-5}$ \\" in text_table.latex(section)
 
 
 def test_an_unknown_format_is_refused():
@@ -193,7 +192,7 @@ def extra_study(*scores: str, velocity: bool = True) -> Study:
 def test_every_score_fits_the_width_of_the_terminal(width):
     study = extra_study("norms", "phase", "growth", "period", "defects")
     for section in table.sections(study, width):
-        assert max(len(line) for line in grid.text(section).splitlines()[1:]) <= width
+        assert max(len(line) for line in text_table.text(section).splitlines()[1:]) <= width
 
 
 @pytest.mark.parametrize("form", ["markdown", "latex"])
@@ -275,14 +274,14 @@ def test_a_defect_that_no_method_has_is_no_column():
 def test_machine_forms_hold_all_that_was_scored_whatever_is_shown():
     study = extra_study("error")
     found = _strict_json(table.render(study, "json"))["tables"]
-    assert list(found) == list(machine.COLUMNS)
+    assert list(found) == list(render.COLUMNS)
     assert found["phase"][0] == {
         "method": "verlet", "n": 128, "h": 0.078125, "theta0": 1.0, "max_phase_error": 1.25e-3,
         "end_phase_error": -1e-3, "max_amplitude_error": 2.5e-4, "end_amplitude_error": 1e-4, "lost": 1,
             "phase_rounding": 0.0, "amplitude_rounding": 0.0,
     }  # fmt: skip
     assert found["defects"][-1]["symplecticity"] is None
-    assert list(table.files(study, "csv")) == [f"pendulum-{name}.csv" for name in machine.COLUMNS]
+    assert list(table.files(study, "csv")) == [f"pendulum-{name}.csv" for name in render.COLUMNS]
 
 
 def test_cases_of_several_forms_share_their_columns_in_machine_forms():
@@ -292,7 +291,7 @@ def test_cases_of_several_forms_share_their_columns_in_machine_forms():
     )
     study = made_study(methods=("rk4",), n=(128,))
     cells = tuple(dataclasses.replace(study.error_vs_n[0], case=case) for case in (one, other))
-    found = machine.rows(dataclasses.replace(study, cases=(one, other), error_vs_n=cells), "error_vs_n")
+    found = render.rows(dataclasses.replace(study, cases=(one, other), error_vs_n=cells), "error_vs_n")
     assert [(row["form"], row["z0"], row["arc"]) for row in found] == [("z", 0.5, None), ("arc", None, 2.0)]
 
 
@@ -314,8 +313,8 @@ def test_a_case_without_a_conserved_quantity_has_no_drift():
 
 def test_a_line_of_a_latex_heading_is_not_read_as_an_option() -> None:
     r"""`\\[s]` would ask for a vertical space of "s"."""
-    columns = (grid.Column("t [s]"), grid.Column("error order", "[one]"), grid.Column("*two x"))
-    text = grid.latex(grid.Section("name", "title", (grid.Grid(columns, (("1", "2", "3"),)),)))
+    columns = (text_table.Column("t [s]"), text_table.Column("error order", "[one]"), text_table.Column("*two x"))
+    text = text_table.latex(text_table.Section("name", "title", (text_table.Grid(columns, (("1", "2", "3"),)),)))
     assert r"\shortstack{t\\{[s]}}" in text
     assert r"\\[" not in text
     assert r"\\*" not in text

@@ -7,7 +7,7 @@ import io
 import json
 from typing import TYPE_CHECKING, Any
 
-from compare.show import text_table as grid
+from compare.show import text_table
 from compare.show.text_table import Column, Section, folded
 from compare.sources.errata.entries import NOTICED
 from compare.sources.errata.evidence import Erratum
@@ -86,8 +86,8 @@ def render(found: list[dict[str, Any]], form: str = "text", width: int = 100) ->
     if form == "markdown":
         return "\n".join([_HEADER, *_markdown(everything)])
     if form == "latex":
-        return "\n".join([_LATEX_NEEDS, *map(grid.latex, _sections(everything, _LATEX_WIDTH, _LATEX_ENTRIES))])
-    return "\n".join(map(grid.text, _sections(everything, width, len(everything))))
+        return "\n".join([_LATEX_NEEDS, *map(text_table.latex, _sections(everything, _LATEX_WIDTH, _LATEX_ENTRIES))])
+    return "\n".join(map(text_table.text, _sections(everything, width, len(everything))))
 
 
 def _noticed() -> list[dict[str, Any]]:
@@ -123,11 +123,11 @@ def _count(own: list[dict[str, Any]]) -> str:
 def _markdown(found: list[dict[str, Any]]) -> Iterator[str]:
     for name, citation, kind, own in _of(found):
         if kind == "erratum":
-            yield f"## The {name}\n\n{grid.markdown_text(citation)}: {_count(own)}.\n"
+            yield f"## The {name}\n\n{text_table.markdown_text(citation)}: {_count(own)}.\n"
         else:
             yield f"## The {name}: {_KINDS[kind].lower()}\n\n{_count(own)}.\n"
         for record in own:
-            lines = "\n".join(f"- {field}: {grid.markdown_text(words)}" for field, words in _rows(record))
+            lines = "\n".join(f"- {field}: {text_table.markdown_text(words)}" for field, words in _rows(record))
             yield f"### {record['place']}\n\n{lines}\n"
 
 

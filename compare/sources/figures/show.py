@@ -9,8 +9,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import FixedLocator, LogLocator, NullLocator
 
 from compare.show.plot_style import GREY, inks, saved, style
-from compare.sources.figures import moving_image, page
-from compare.sources.figures import scene as panels
+from compare.sources.figures import moving_image, page, scene
 from compare.sources.figures.catalogue import FIGURES
 from compare.sources.figures.motion import Motion
 from compare.sources.figures.scene import draw_curve
@@ -44,7 +43,7 @@ def files(names: Iterable[str] = tuple(FIGURES)) -> dict[str, bytes]:
 
 def draw(drawing: Drawing | Motion) -> Figure:
     """The figure, in the style in force."""
-    drawn = panels.draw(drawing) if isinstance(drawing, Motion) else _draw_axes(drawing)
+    drawn = scene.draw(drawing) if isinstance(drawing, Motion) else _draw_axes(drawing)
     drawn.suptitle(_title(drawing), fontsize=13, fontweight="bold", x=0.01, ha="left")
     return drawn
 

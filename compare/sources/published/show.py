@@ -9,7 +9,7 @@ import json
 import textwrap
 from typing import TYPE_CHECKING, Any
 
-from compare.show import text_table as grid
+from compare.show import text_table
 from compare.show.digits import NOTES, ROUNDING
 from compare.show.render import FORMATS
 from compare.show.text_table import Column, Grid, Section
@@ -45,7 +45,7 @@ def render(found: Sequence[Reproduction], form: str = "text", width: int = 100) 
         return "[\n" + ",\n".join(f"  {json.dumps(row, ensure_ascii=False)}" for row in rows) + "\n]\n"
     if form == "csv":
         return _csv(rows)
-    write = {"text": grid.text, "markdown": grid.markdown, "latex": grid.latex}[form]
+    write = {"text": text_table.text, "markdown": text_table.markdown, "latex": text_table.latex}[form]
     parts = [write(_section(one, form, width)) for one in found]
     return "\n".join([_heading(found, form, width), *parts])
 
@@ -63,7 +63,7 @@ def _heading(found: Sequence[Reproduction], form: str, width: int) -> str:
     cited = {one.table.source: sources()[one.table.source] for one in found}
     facts = [f"{name}: {text}" for name, text in cited.items()] + [LEGEND]
     if form == "markdown":
-        return "## Published\n\n" + "\n".join(f"- {grid.markdown_text(fact)}" for fact in facts) + "\n"
+        return "## Published\n\n" + "\n".join(f"- {text_table.markdown_text(fact)}" for fact in facts) + "\n"
     if form == "latex":
         return "\n".join(f"% {fact}" for fact in (r"needs \usepackage{booktabs}", *facts)) + "\n"
     return "\n".join(textwrap.fill(fact, width, subsequent_indent="  ") for fact in facts) + "\n"
@@ -104,7 +104,7 @@ def _grids(one: Reproduction, width: int) -> list[Grid]:
     grids: list[Grid] = []
     chosen: list[str] = []
     for name in names:
-        if chosen and grid.text_width(_grid(one, [*chosen, name])) > width:
+        if chosen and text_table.text_width(_grid(one, [*chosen, name])) > width:
             grids.append(_grid(one, chosen))
             chosen = []
         chosen.append(name)

@@ -14,7 +14,6 @@ faster, and none is the fastest.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from fractions import Fraction
 from functools import lru_cache
 from itertools import islice
@@ -27,15 +26,13 @@ from reference.arithmetic.limbs import WorkBoundError, ziv
 from reference.arithmetic.namespaces import BALL
 from reference.arithmetic.precision import ctx, mp
 from reference.problems.polar.equations import End, Field
-from reference.row_domains import Domain
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
-    from reference.problems.polar.central import CentralBrachistochrone
     from reference.problems.polar.extremal import Extremal
 
-__all__ = ["Reached", "end_of", "exponent_near", "lowest_point"]
+__all__ = ["DECISION_BITS", "end_of", "exponent_near", "lowest_point", "positive"]
 
 DECISION_BITS = 128
 RANGE = 512
@@ -58,38 +55,20 @@ def end_of(radius: Fraction, angle: Fraction, field: Field, extremal: Callable[.
     if angle <= 0:
         raise ValueError(f"{told}; a positive angle is accepted: the fall along the radius is no curve of this family.")
     what = f"the branch at {told[7:]}"
-    if _positive(lambda: BALL.number(angle) - BALL.number(field.sweep) * arb.pi(), what):
+    if positive(lambda: BALL.number(angle) - BALL.number(field.sweep) * arb.pi(), what):
         raise ValueError(
             f"{told}, which no smooth extremal reaches: released at rest, all sweep less than {field.beyond}, and "
             "beyond it curves through ever smaller distances from the centre are ever faster."
         )
-    after = radius == 1 or _positive(lambda: BALL.number(angle) - extremal(BALL, BALL.number(radius)).half_angle, what)
+    after = radius == 1 or positive(lambda: BALL.number(angle) - extremal(BALL, BALL.number(radius)).half_angle, what)
     return End(radius, angle, after)
-
-
-@dataclass(frozen=True)
-class Reached(Domain):
-    """The heights from the irrational lowest point of a path to the release."""
-
-    path: CentralBrachistochrone
-
-    def contains(self, number: Fraction) -> bool:
-        if not 0 < number <= 1:
-            return False
-        bits = DECISION_BITS + self.path.working_bits([])
-        what = f"whether z = {as_number(number)} is above the lowest point of {self.path!r}"
-        return _positive(lambda: BALL.number(number) - self.path.closed_form(BALL).z0, what, bits)
-
-    @property
-    def accepted(self) -> str:
-        return f"a number from the lowest point, about {self.path.near_lowest:.6g}, to 1"
 
 
 def _told(radius: Fraction, angle: Fraction) -> str:
     return f"end is ({as_number(radius)}, {as_number(angle)})"
 
 
-def _positive(difference: Callable[[], arb], what: str, bits: int = DECISION_BITS) -> bool:
+def positive(difference: Callable[[], arb], what: str, bits: int = DECISION_BITS) -> bool:
     """Whether a number is positive, decided in balls; it is not zero."""
 
     def certain(ball: arb) -> bool | None:
@@ -135,7 +114,7 @@ def exponent_near(end: End, extremal: Callable[..., Extremal]) -> Fraction:
             w = side * BALL.power(BALL.number(Fraction(2)), exponent)
             return side * (BALL.number(end.angle) - extremal(BALL, _lowest(BALL, end, w), end).arrival_angle)
 
-        return _positive(excess, f"the path to {_told(end.radius, end.angle)}")
+        return positive(excess, f"the path to {_told(end.radius, end.angle)}")
 
     if wide(low) or not wide(high):
         raise WorkBoundError(

@@ -17,11 +17,12 @@ from reference.names import said
 from reference.once import cached_property
 from reference.problem import Problem
 from reference.problems.polar.bodies import BODIES
-from reference.problems.polar.boundary import Reached, end_of, exponent_near, lowest_point
+from reference.problems.polar.boundary import DECISION_BITS, end_of, exponent_near, lowest_point, positive
 from reference.problems.polar.numerical import Numerical
 from reference.problems.polar.panels import panels_of
 from reference.problems.polar.quantities import Z
 from reference.problems.polar.taylor import TaylorExtremal
+from reference.row_domains import Domain
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -32,7 +33,6 @@ if TYPE_CHECKING:
     from reference.declaration import Row
     from reference.problems.polar.equations import End, Field
     from reference.problems.polar.extremal import Extremal
-    from reference.row_domains import Domain
 
 __all__ = ["CentralBrachistochrone"]
 
@@ -296,3 +296,21 @@ def _form(problem: CentralBrachistochrone, in_balls: bool, bits: int) -> Extrema
 def _taylor_form(problem: CentralBrachistochrone, bits: int) -> TaylorExtremal:
     form: Any = problem.closed_form(MPMATH)
     return TaylorExtremal(form, None if problem.z0 is None else problem.parameters["kappa"], bits)
+
+
+@dataclass(frozen=True)
+class Reached(Domain):
+    """The heights from the irrational lowest point of a path to the release."""
+
+    path: CentralBrachistochrone
+
+    def contains(self, number: Fraction) -> bool:
+        if not 0 < number <= 1:
+            return False
+        bits = DECISION_BITS + self.path.working_bits([])
+        what = f"whether z = {as_number(number)} is above the lowest point of {self.path!r}"
+        return positive(lambda: BALL.number(number) - self.path.closed_form(BALL).z0, what, bits)
+
+    @property
+    def accepted(self) -> str:
+        return f"a number from the lowest point, about {self.path.near_lowest:.6g}, to 1"
