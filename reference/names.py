@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
+from contextlib import contextmanager
 from difflib import get_close_matches
 from numbers import Number
 from reprlib import repr as abridged
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Callable, Iterable, Iterator
 
-__all__ = ["is_grid_file", "printable", "said", "short", "unknown"]
+__all__ = ["in_one_sentence", "is_grid_file", "printable", "said", "short", "unknown"]
 
 SHOWN = 12
 MANY_BITS = 1000
@@ -60,3 +61,16 @@ def unknown(kind: str, given: str, names: Iterable[str], aliases: Iterable[str] 
     guess = f", perhaps {' or '.join(near)}" if near else ""
     more = ", ..." if len(accepted) > SHOWN else ""
     return f"{kind} '{short(given)}' is unknown{guess}; accepted are {', '.join(accepted[:SHOWN])}{more}."
+
+
+@contextmanager
+def in_one_sentence(faults: tuple[type[BaseException], ...], sentence: Callable[[str], str]) -> Iterator[None]:
+    """What a library raises of a file, as one sentence about what it says.
+
+    Raises:
+        ValueError: it raises one of the faults.
+    """
+    try:
+        yield
+    except faults as error:
+        raise ValueError(sentence(" ".join(str(error).split()) or type(error).__name__)) from error

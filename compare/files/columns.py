@@ -20,7 +20,7 @@ from reference.names import LENGTH, SHOWN, short
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
-__all__ = ["DATASETS", "USUAL", "Columns", "Unit", "asked_columns", "named", "option", "same_as", "split_name", "unit"]
+__all__ = ["DATASETS", "USUAL", "Columns", "Unit", "asked_columns", "named", "option", "unit"]
 
 TIMES = frozenset({
     "time", "times", "zeit", "temps", "tiempo", "tempo", "tid", "tijd", "x_value",

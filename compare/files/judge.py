@@ -37,7 +37,7 @@ if TYPE_CHECKING:
     from compare.files.written import Written
     from reference.orbits import Orbits
 
-__all__ = ["CHUNK", "FIRST_ROWS", "Judge", "Turns", "exchanged", "refuse_other_times", "refuse_other_units"]
+__all__ = ["CHUNK", "FIRST_ROWS", "Judge", "Turns", "exchanged"]
 
 FIRST_ROWS = 16
 """Rows that tell degrees from radians: a poor integrator needs some time to be 57 times wrong."""

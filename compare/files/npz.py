@@ -14,10 +14,11 @@ from numpy.lib import format as npy
 
 from compare.files.npy import NO_NPY, header_of, read_header
 from compare.files.packed import flat, packed, rows_first, sized
-from reference.names import short
+from reference.names import in_one_sentence, short
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
+    from contextlib import AbstractContextManager
     from pathlib import Path
 
     from compare.files.arrays import Column
@@ -111,19 +112,16 @@ class Unpacked:
             count -= len(self.read(min(count, BLOCK)))
 
 
-@contextmanager
-def told(path: Path, name: str = "") -> Iterator[None]:
+def told(path: Path, name: str = "") -> AbstractContextManager[None]:
     """What goes wrong in an archive, in one sentence.
 
     Raises:
         ValueError: something does.
     """
-    try:
-        yield
-    except FAULTS as error:
-        said = " ".join(str(error).split()) or type(error).__name__
-        where = f" in its array {short(name)}" if name else ""
-        raise ValueError(f"'{path}' is a file {NO_NPY}; zipfile says{where}: {short(said.rstrip('.'))}.") from error
+    where = f" in its array {short(name)}" if name else ""
+    return in_one_sentence(
+        FAULTS, lambda said: f"'{path}' is a file {NO_NPY}; zipfile says{where}: {short(said.rstrip('.'))}."
+    )
 
 
 @contextmanager

@@ -27,7 +27,7 @@ from compare.measure.result import Run
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
 
-__all__ = ["GROWTH_SAMPLES", "LAWS", "Exponent", "enough", "exponent_of", "growths"]
+__all__ = ["GROWTH_SAMPLES", "enough", "exponent_of", "growths"]
 
 LEAST_SAMPLES, LEAST_WINDOWS = 8, 4
 """A window has so many samples at least, and an exponent so many windows."""

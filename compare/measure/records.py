@@ -16,7 +16,6 @@ __all__ = [
     "Drift",
     "FittedOrder",
     "Growth",
-    "OfCase",
     "OwnPeriod",
     "Phase",
     "Study",

@@ -35,7 +35,7 @@ if TYPE_CHECKING:
 
     from compare.measure.records import Case, Cell, Drift, FittedOrder, Growth, Phase, Study
 
-__all__ = ["EXTRA_SECTIONS", "FORMATS", "TABLES", "files", "plain", "render", "sections"]
+__all__ = ["FORMATS", "TABLES", "files", "render", "sections"]
 
 QUANTITIES = ("place", "phase", "energy")
 _GROWTH_NOTE = (
@@ -182,18 +182,6 @@ def plain(
 
 
 _MISSING = {"period": "nan means that two passages were not found within the march"}
-
-
-EXTRA_SECTIONS: dict[str, Callable[[Study, Case, dict[str, int], int], Iterator[Section]]] = {
-    "norms": _norms,
-    "phase": _phase,
-    "growth": _growth,
-    "period": _period,
-    "defects": _defects,
-}
-"""The tables of each score."""
-
-
 _NAN_NOTE = "nan means overflow, stages that do not converge, or no Taylor series at a cusp"
 _FAR_NOTE = "! means further from the declared order than the slopes are from each other"
 
@@ -351,7 +339,11 @@ _DECIMALS = (".4f", ".3f", ".2f")
 _SECTIONS: dict[str, Callable[[Study, Case, dict[str, int], int], Iterator[Section]]] = {
     "error": _error,
     "drift": _drift,
-    **EXTRA_SECTIONS,
+    "norms": _norms,
+    "phase": _phase,
+    "growth": _growth,
+    "period": _period,
+    "defects": _defects,
 }
 """The tables of each score."""
 TABLES = Tables(sections, COLUMNS)

@@ -37,7 +37,7 @@ if TYPE_CHECKING:
     from compare.solvers.solver import Answer, Question, Solver
     from reference.problem import Problem
 
-__all__ = ["Asked", "Heard", "events", "heard", "score_events", "score_solver"]
+__all__ = ["Asked", "events", "heard", "score_events", "score_solver"]
 
 WORTH_PROCESSES = 4.0
 """Seconds of all calls from which others take less time to begin than they save."""

@@ -11,11 +11,12 @@ import numpy as np
 
 from reference.dataset.foreign import MOST_ATTRIBUTES, Said, attribute_bytes, said_of
 from reference.dataset.heaps import damaged_heap
-from reference.names import LENGTH, short
+from reference.names import LENGTH, in_one_sentence, short
 from reference.once import cached_property
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
+    from contextlib import AbstractContextManager
     from pathlib import Path
 
 __all__ = ["ForeignColumn", "foreign_columns"]
@@ -131,19 +132,14 @@ class ForeignColumn:
             )
 
 
-@contextmanager
-def told(path: Path, name: str = "") -> Iterator[None]:
+def told(path: Path, name: str = "") -> AbstractContextManager[None]:
     """What goes wrong in a file, in one sentence.
 
     Raises:
         ValueError: something does.
     """
-    try:
-        yield
-    except FAULTS as error:
-        said = " ".join(str(error).split()) or type(error).__name__
-        where = f" in its dataset {short(name)}" if name else ""
-        raise ValueError(f"'{path}' cannot be read: HDF5 says{where}: {_first(said)}.") from error
+    where = f" in its dataset {short(name)}" if name else ""
+    return in_one_sentence(FAULTS, lambda said: f"'{path}' cannot be read: HDF5 says{where}: {_first(said)}.")
 
 
 def _first(said: str) -> str:

@@ -31,7 +31,7 @@ from reference.names import short
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
 
-__all__ = ["Digest", "dimensions", "fingerprint", "parameters_of", "pieces"]
+__all__ = ["dimensions", "fingerprint", "parameters_of", "pieces"]
 
 
 def parameters_of(group: h5py.Group) -> dict[str, float]:

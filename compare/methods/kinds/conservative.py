@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
     from compare.methods.kinds.protocol import Method, State, System
 
-__all__ = ["AverageVectorField", "DiscreteGradient", "Projected", "gauss_rule"]
+__all__ = ["AverageVectorField", "DiscreteGradient", "Projected"]
 
 
 @dataclass(frozen=True)

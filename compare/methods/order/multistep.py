@@ -18,15 +18,7 @@ from typing import TYPE_CHECKING, TypeAlias
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
-__all__ = [
-    "adams",
-    "backward_differences",
-    "integral_weights",
-    "is_zero_stable",
-    "multistep_order",
-    "stormer",
-    "velocity_weights",
-]
+__all__ = ["adams", "backward_differences", "is_zero_stable", "multistep_order", "stormer", "velocity_weights"]
 
 
 def integral_weights(nodes: Sequence[int], moment: Callable[[int], Fraction]) -> tuple[Fraction, ...]:

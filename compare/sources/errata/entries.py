@@ -16,7 +16,7 @@ from compare.sources.errata.sound import SOUND
 from compare.sources.errata.thesis_curves import CURVES
 from compare.sources.errata.thesis_field import FIELD
 
-__all__ = ["ENTRIES", "ERRATA", "NOTICED", "Remark"]
+__all__ = ["ENTRIES", "ERRATA", "NOTICED"]
 
 
 @dataclass(frozen=True)

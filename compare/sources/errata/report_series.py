@@ -28,7 +28,6 @@ __all__ = [
     "RIGHT_SIDE",
     "SERIES",
     "TO_THE_FOURTH",
-    "Cosines",
     "coefficient",
     "is_forcing",
     "is_period",

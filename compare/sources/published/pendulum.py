@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from compare.sources.published.source import Column, Table
     from reference.arithmetic.protocols import ElementaryArithmetic
 
-__all__ = ["EXACT", "REPRODUCED", "Dense", "dense", "expansion"]
+__all__ = ["EXACT", "REPRODUCED", "dense", "expansion"]
 
 State = tuple[float, float]
 BISECTIONS = 60
