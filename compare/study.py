@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
-from compare.march.aspects import conserves
 from compare.march.precision import precision as find_precision
 from compare.measure.cases import case_of
 from compare.measure.order_fit import fit_order
@@ -179,9 +178,9 @@ def named(methods: Sequence[str] | None) -> tuple[Method, ...]:
 
 def fits(method: Method, problem: Problem) -> bool:
     """Whether the problem has what the method needs: positions apart from momenta, or a conserved quantity."""
-    if method.separable_only and not getattr(problem, "positions", 0):
+    if method.separable_only and not problem.positions:
         return False
-    return method.family != "conservative" or conserves(problem)
+    return method.family != "conservative" or bool(problem.invariants)
 
 
 def _ends(t_end: Any, count: int) -> tuple[Fraction, ...]:

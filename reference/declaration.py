@@ -10,17 +10,29 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Any, Literal, Protocol
 
 from reference.arithmetic.limbs import MAX_BITS
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Mapping, Sequence
 
     from reference.constants import Constant
     from reference.row_domains import Domain
 
-__all__ = ["ClosedForm", "Declared", "Equation", "Quantity", "Row", "Solution"]
+__all__ = [
+    "ENERGY_ABOVE_REST",
+    "ClosedForm",
+    "Declared",
+    "Equation",
+    "Form",
+    "Invariant",
+    "Quantity",
+    "Row",
+    "Solution",
+    "StateSpace",
+    "Trial",
+]
 
 
 @dataclass(frozen=True)
@@ -53,6 +65,125 @@ class Row:
         return self.domain.over
 
 
+Interval = tuple[float, float]
+
+
+@dataclass(frozen=True, kw_only=True)
+class StateSpace:
+    """How a state is read: what each of its components is, and in what its error is measured.
+
+    Attributes:
+        positions: the components whose error is the position error, in the order of the state.
+        velocities: the rates of the first positions, in their order; () where there are none, or ``momenta`` are.
+        momenta: the momenta conjugate to the positions, in their order; () where there are none.
+        angles: the positions that are angles in rad, counted on from turn to turn.
+        odd: the components whose sign changes with that of time (the reversor); None where turning back means nothing.
+        along: the component that the others are a function of, the last of the state; None where that is the time,
+            which stands outside of the state.
+        scale: what the error of a component is measured in: "units", its own, or "largest", its largest value.
+        independent: the units of what the state is a function of; "" for a pure number.
+        axes: what the axes of a phase portrait are called; () where the quantities of the state say it.
+        order: the components in the order of the state, where that is not positions, rates, along.
+
+    Raises:
+        ValueError: the declaration contradicts itself.
+    """
+
+    positions: tuple[str, ...]
+    velocities: tuple[str, ...] = ()
+    momenta: tuple[str, ...] = ()
+    angles: tuple[str, ...]
+    odd: tuple[str, ...] | None
+    along: str | None
+    scale: Literal["units", "largest"]
+    independent: str
+    axes: tuple[str, ...] = ()
+    order: tuple[str, ...] = ()
+
+    def __post_init__(self) -> None:
+        declared = (*self.positions, *self.rates, *(() if self.along is None else (self.along,)))
+        if not self.positions:
+            raise ValueError("positions is empty; a state has at least one.")
+        if self.velocities and self.momenta:
+            raise ValueError("velocities and momenta are both given; one of them is accepted.")
+        if len(self.rates) > len(self.positions):
+            raise ValueError("there are more velocities or momenta than positions; one for each is accepted.")
+        if len(set(declared)) < len(declared) or (self.order and sorted(self.order) != sorted(declared)):
+            raise ValueError(f"the components {', '.join(self.order or declared)} are not each declared once.")
+        for name in (*self.angles, *(self.odd or ())):
+            if name not in declared:
+                raise ValueError(f"{name} is no component of the state; {', '.join(declared)} are.")
+
+    @property
+    def components(self) -> tuple[str, ...]:
+        """The names of the state's components, in its order."""
+        along = () if self.along is None else (self.along,)
+        return self.order or (*self.positions, *self.rates, *along)
+
+    @property
+    def rates(self) -> tuple[str, ...]:
+        """The velocities or the momenta."""
+        return self.velocities or self.momenta
+
+    def places(self, names: Sequence[str]) -> list[int]:
+        """Where components stand in the state."""
+        return [self.components.index(name) for name in names]
+
+    @property
+    def pairs(self) -> list[tuple[int, int]]:
+        """Where each position that has a rate stands, and where its rate does."""
+        return list(zip(self.places(self.positions), self.places(self.rates), strict=False))
+
+
+@dataclass(frozen=True)
+class Form:
+    """One of the forms of a family's equations.
+
+    Attributes:
+        name: as the command line spells it.
+        words: the same in a table.
+        equation: the equation in one line, with its start.
+    """
+
+    name: str
+    words: str
+    equation: str
+
+
+@dataclass(frozen=True)
+class Invariant:
+    """A quantity that every exact motion conserves.
+
+    Attributes:
+        name: what it is called, such as "energy".
+        drift: its title in a table and its relative change in symbols, such as ("Energy", "(E - E0)/(E0 - Emin)").
+        scale: what its change is divided by: "start", its absolute value there, or "kinetic", the kinetic energy of
+            the start, which ``Problem.kinetic`` gives.
+        value: the method of the problem that gives it in any arithmetic, called with (m, y, p).
+    """
+
+    name: str
+    drift: tuple[str, str]
+    scale: Literal["start", "kinetic"]
+    value: str = "invariant"
+
+
+@dataclass(frozen=True, kw_only=True)
+class Trial:
+    """Where a compiled step is tried: intervals of states, parameters and step sizes in which the equation is real.
+
+    A block takes many steps from there, and must stay where it is.
+    """
+
+    states: tuple[Interval, ...]
+    parameters: Mapping[str, Interval]
+    step: Interval
+
+
+ENERGY_ABOVE_REST = Invariant("energy", ("Energy", "(E - E0)/(E0 - Emin)"), "start")
+"""An energy that is counted from that of rest, so that its own start is the scale of its drift."""
+
+
 class Solution(Protocol):
     """One route to the truth about one problem."""
 
@@ -73,7 +204,7 @@ class ClosedForm:
 
 
 class Equation(Protocol):
-    """What the Taylor method integrates: y' = derivative(m, y, p) from its start."""
+    """What the Taylor method integrates: y' = derivative(m, t, y, p) from its start."""
 
     @property
     def state_names(self) -> tuple[str, ...]: ...
@@ -81,7 +212,7 @@ class Equation(Protocol):
     def parameters(self) -> dict[str, Fraction]: ...
     @property
     def start(self) -> tuple[Fraction, ...]: ...
-    def derivative(self, m: Any, y: Sequence[Any], p: dict[str, Any]) -> tuple[Any, ...]: ...
+    def derivative(self, m: Any, t: Any, y: Sequence[Any], p: dict[str, Any]) -> tuple[Any, ...]: ...
 
 
 class Declared(Protocol):

@@ -7,11 +7,13 @@ from typing import TYPE_CHECKING, NamedTuple, Protocol
 
 from flint import arb
 
+from reference.arithmetic.namespaces import BALL
+
 if TYPE_CHECKING:
     from collections.abc import Sequence
     from fractions import Fraction
 
-__all__ = ["NOWHERE", "Orbits", "Place", "apart"]
+__all__ = ["NOWHERE", "Harmonic", "Orbits", "Place", "apart"]
 
 
 class Place(NamedTuple):
@@ -44,3 +46,27 @@ def apart(here: Place, true: Place) -> tuple[float, float]:
     if here.amplitude is not None and true.amplitude is not None:
         amplitude = float(here.amplitude - true.amplitude)
     return phase, amplitude
+
+
+class Harmonic:
+    """x'' = -w^2 x with x the first of the state less ``centre``: amplitude sqrt(x^2 + (x'/w)^2)."""
+
+    def __init__(self, start: Sequence[Fraction], w: arb, centre: arb | None = None) -> None:
+        self.w, self._centre = w, arb(0) if centre is None else centre
+        self._start = self.place([BALL.number(value) for value in start])
+
+    def truth(self, t: Fraction) -> Place:
+        """The start's place, and w t/(2 pi) periods later."""
+        phase = self._start.phase
+        later = None if phase is None else phase + BALL.number(t) * self.w / (2 * arb.pi())
+        return Place(later, self._start.amplitude)
+
+    def place(self, y: Sequence[arb]) -> Place:
+        """Phases count from the upward passage through the centre."""
+        return self.polar(y[0] - self._centre, y[1] / self.w)
+
+    @staticmethod
+    def polar(x: arb, rate: arb) -> Place:
+        """The angle of (rate, x) in turns, and its distance from the centre."""
+        square = x * x + rate * rate
+        return Place(arb.atan2(x, rate) / (2 * arb.pi()), square.sqrt()) if square > 0 else Place(None, square.sqrt())

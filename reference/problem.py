@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any, ClassVar
@@ -21,7 +22,8 @@ if TYPE_CHECKING:
 
     from reference.arithmetic.protocols import Arithmetic
     from reference.constants import Constant
-    from reference.declaration import ClosedForm, Row, Solution
+    from reference.declaration import ClosedForm, Form, Invariant, Row, Solution, StateSpace, Trial
+    from reference.orbits import Orbits
     from reference.row_domains import Domain
 
 __all__ = ["APART", "Problem", "SeparableProblem"]
@@ -40,7 +42,11 @@ class Problem:
 
     name: ClassVar[str]
     rows: ClassVar[tuple[Row, ...]]
-    state_names: ClassVar[tuple[str, ...]]
+    space: ClassVar[StateSpace]
+    invariants: ClassVar[tuple[Invariant, ...]]
+    trial: ClassVar[Trial]
+    form: ClassVar[Form | None] = None
+    """Which form of its family's equations this is; None where there is one."""
     max_bits: ClassVar[int] = MAX_BITS
     """Working precision at which a proof is given up: lower where a value takes an integral."""
 
@@ -55,16 +61,75 @@ class Problem:
         raise NotImplementedError
 
     @property
+    def state_names(self) -> tuple[str, ...]:
+        """The components of the state."""
+        return self.space.components
+
+    @property
+    def equation(self) -> str:
+        """The equation of motion in one line, with its start."""
+        if self.form is None:
+            raise NotImplementedError
+        return self.form.equation
+
+    @property
+    def inputs(self) -> dict[str, tuple[Any, str]]:
+        """What tells the problem from others of its family: numbers or names, and their units, by name."""
+        raise NotImplementedError
+
+    @property
     def constants(self) -> tuple[Constant, ...]:
         """The physical constants that the parameters come from; none where they are given themselves."""
         return ()
 
-    def derivative(self, m: Arithmetic, y: Sequence[Any], p: dict[str, Any]) -> tuple[Any, ...]:
-        """dy/dt as a function of the state and the parameters, in any arithmetic."""
+    autonomous: ClassVar[bool] = True
+    """Whether the equation is without the time."""
+
+    def derivative(self, m: Arithmetic, t: Any, y: Sequence[Any], p: dict[str, Any]) -> tuple[Any, ...]:
+        """dy/dt as a function of the time, the state and the parameters, in any arithmetic."""
         raise NotImplementedError
 
     def invariant(self, m: Arithmetic, y: Sequence[Any], p: dict[str, Any]) -> Any:
-        """A conserved quantity that is zero at rest and positive elsewhere, free of cancellation."""
+        """The first of the invariants, in any arithmetic; for an energy with a rest, what it is above that.
+
+        So it is free of cancellation, and its relative change means something.
+        """
+        raise NotImplementedError
+
+    def kinetic(self, m: Arithmetic, y: Sequence[Any], p: dict[str, Any]) -> Any:
+        """The kinetic energy, by which the drift of an invariant is told that may be zero."""
+        raise NotImplementedError
+
+    @property
+    def positions(self) -> int:
+        """How many components are positions apart from momenta; 0 where the equation does not split into both."""
+        return 0
+
+    @property
+    def structure(self) -> Any:
+        """What problems share whose equations differ in parameters alone."""
+        return type(self)
+
+    def cycle(self) -> float:
+        """The period of the motion in its own unit of time; NaN where it has none."""
+        return float(self.certified("period")) if self.serves("period") else math.nan
+
+    def orbits(self) -> Orbits | None:
+        """The exact orbits at the precision in force; None where phases and amplitudes are not defined."""
+        return None
+
+    @property
+    def lacks_of_orbits(self) -> str:
+        """What of phase and amplitude the exact motion lacks, in a sentence; "" where it has both."""
+        return f"Phase and amplitude are not defined for the problem {self.name}."
+
+    def passages(self, until: float) -> tuple[str, int] | None:
+        """The row of its proven events and how many of them lie in (0, until]; None where it has none."""
+        del until
+        return None
+
+    def event(self, m: Arithmetic, y: Sequence[Any]) -> Any:
+        """Zero at the events of ``passages``, in any arithmetic."""
         raise NotImplementedError
 
     def rate(self) -> float:
@@ -214,21 +279,24 @@ class Problem:
 
 @dataclass(frozen=True)
 class SeparableProblem(Problem):
-    """A problem with q' = v(p) and p' = F(q), positions q first in the state."""
+    """A problem with q' = v(t, p) and p' = F(t, q), positions q first in the state."""
 
-    positions: ClassVar[int]
+    @property
+    def positions(self) -> int:
+        return len(self.space.positions)
 
     @staticmethod
-    def velocity(m: Arithmetic, momenta: Sequence[Any], p: dict[str, Any]) -> tuple[Any, ...]:
-        """q' as a function of the momenta and the parameters."""
+    def velocity(m: Arithmetic, t: Any, momenta: Sequence[Any], p: dict[str, Any]) -> tuple[Any, ...]:
+        """q' as a function of the time, the momenta and the parameters."""
         raise NotImplementedError
 
     @staticmethod
-    def force(m: Arithmetic, positions: Sequence[Any], p: dict[str, Any]) -> tuple[Any, ...]:
-        """p' as a function of the positions and the parameters."""
+    def force(m: Arithmetic, t: Any, positions: Sequence[Any], p: dict[str, Any]) -> tuple[Any, ...]:
+        """p' as a function of the time, the positions and the parameters."""
         raise NotImplementedError
 
     @classmethod
-    def derivative(cls, m: Arithmetic, y: Sequence[Any], p: dict[str, Any]) -> tuple[Any, ...]:
-        """(q, p)' = (v(p), F(q))."""
-        return *cls.velocity(m, y[cls.positions :], p), *cls.force(m, y[: cls.positions], p)
+    def derivative(cls, m: Arithmetic, t: Any, y: Sequence[Any], p: dict[str, Any]) -> tuple[Any, ...]:
+        """(q, p)' = (v(t, p), F(t, q))."""
+        count = len(cls.space.positions)
+        return *cls.velocity(m, t, y[count:], p), *cls.force(m, t, y[:count], p)

@@ -138,11 +138,11 @@ class Scene:
     def rates(self, m: Arithmetic, t: Any, y: Sequence[Any]) -> tuple[Any, ...]:
         """dy/dt in an arithmetic whose numbers mix with floats."""
         if self.frame is None:
-            return tuple(self.problem.derivative(m, y, self._parameters))
+            return tuple(self.problem.derivative(m, t, y, self._parameters))
         s, speed, acceleration = self.frame.at(m, t)
         positions = self.problem.positions
         still = [*(q - s for q in y[:positions]), *(p - speed for p in y[positions:])]
-        rates = self.problem.derivative(m, still, self._parameters)
+        rates = self.problem.derivative(m, t, still, self._parameters)
         return *(rate + speed for rate in rates[:positions]), *(rate + acceleration for rate in rates[positions:])
 
     def errors(self, times: Sequence[Fraction], y: np.ndarray) -> np.ndarray:

@@ -26,7 +26,6 @@ from reference.arithmetic.underflow import require_gradual
 from reference.names import short
 from reference.orbits import apart
 from reference.problem import Problem
-from reference.problems.orbits import orbits, remark
 from reference.routes import enclosure
 
 if TYPE_CHECKING:
@@ -341,7 +340,7 @@ class Judge:
 
     def _notes(self, running: Running) -> tuple[str, ...]:
         """What could not be judged, or is to be known of it, in sentences."""
-        lacking, lost = remark(self.problem), running.lost
+        lacking, lost = self.problem.lacks_of_orbits, running.lost
         notes = [f"{constant}." for constant in self.problem.constants]
         notes += [lacking] if lacking else []
         if lost is not None and not (lacking and self._phaseless):
@@ -354,7 +353,7 @@ class Judge:
     @property
     def _phaseless(self) -> bool:
         """Whether the exact motion has no phase."""
-        found = orbits(self.problem)
+        found = self.problem.orbits()
         return found is None or found.truth(Fraction(0)).phase is None
 
     def _refuse_disorder(self, rows: Sequence[Row]) -> None:
@@ -384,7 +383,7 @@ class _Bench:
     def __init__(self, problem: Problem, bits: int) -> None:
         self._problem = problem
         self._parameters = {name: BALL.number(value) for name, value in problem.parameters.items()}
-        self._orbits: Orbits | None = orbits(problem)
+        self._orbits: Orbits | None = problem.orbits()
         self._resolution = arb(2) ** -bits
         self._start: arb | None = self._invariant([BALL.number(value) for value in problem.start])
 
@@ -449,11 +448,7 @@ class _Bench:
         return float(change if self._start.contains(0) else change / self._start)
 
     def _invariant(self, y: Sequence[arb]) -> arb | None:
-        try:
-            found: Any = self._problem.invariant(BALL, y, self._parameters)
-        except NotImplementedError:
-            return None
-        return arb(found)
+        return arb(self._problem.invariant(BALL, y, self._parameters)) if self._problem.invariants else None
 
 
 def _log10(ball: arb) -> float:

@@ -28,7 +28,6 @@ from flint import arb
 
 from reference.arithmetic.namespaces import BALL, NUMPY
 from reference.arithmetic.precision import ctx
-from reference.problems.orbits import orbits
 from reference.problems.pendulum.motions import addition
 from reference.routes import enclosure
 
@@ -67,7 +66,7 @@ class Places:
         self._direction = 1 if problem.omega0 > 0 else -1
         self._parameters = {name: float(value) for name, value in problem.parameters.items()}
         with ctx.workprec(BITS + problem.working_bits([])):
-            kind = orbits(problem)
+            kind = problem.orbits()
             start = None if kind is None else kind.truth(problem.theta0 * 0)
             self._phase = float("nan") if start is None or start.phase is None else float(start.phase)
             self._amplitude = float("nan") if start is None or start.amplitude is None else float(start.amplitude)

@@ -6,7 +6,6 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from compare.march.aspects import conserves
 from compare.methods.order.algebraic import Q
 from reference.arithmetic.compiler import hy
 from reference.arithmetic.dual import Dual, DualArithmetic
@@ -14,6 +13,7 @@ from reference.arithmetic.namespaces import BALL, NUMPY, Heyoka
 from reference.arithmetic.series import jet
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
     from fractions import Fraction
 
     from flint import arb
@@ -23,7 +23,11 @@ if TYPE_CHECKING:
     from compare.methods.order.algebraic import Coefficient, Enclosed
     from reference.problem import Problem
 
-__all__ = ["BoundSystem", "FormatArithmetic", "plain_system"]
+__all__ = ["NO_TIME", "BoundSystem", "FormatArithmetic", "plain_system"]
+
+
+NO_TIME = None
+"""What stands for the time in an equation that is without it: one that is not stops at it."""
 
 
 class FormatArithmetic:
@@ -57,13 +61,20 @@ class _Pi:
 class BoundSystem:
     """A problem's equation in one arithmetic, its parameters numbers of that arithmetic.
 
-    ``level`` is the invariant at the start of the march; where a problem has none, the level stands for it.
+    ``levels`` are the invariants at the start of the march.
+
+    Raises:
+        ValueError: the equation depends on the time, which stands outside of its state.
     """
 
-    def __init__(self, problem: Problem, m: Any, parameters: dict[str, Any], fmt: Precision, level: Any) -> None:
+    def __init__(
+        self, problem: Problem, m: Any, parameters: dict[str, Any], fmt: Precision, levels: Sequence[Any]
+    ) -> None:
+        if not problem.autonomous:
+            raise ValueError(f"{problem!r} depends on the time; compare.march.autonomous makes it a component.")
         self.dimension = len(problem.state_names)
-        self.positions: int = getattr(problem, "positions", 0)
-        self.level = level
+        self.positions = problem.positions
+        self.levels = tuple(levels)
         self._problem: Any = problem
         self._m = m
         self._duals = DualArithmetic(m, self.dimension)
@@ -79,27 +90,44 @@ class BoundSystem:
         return self._numbers[value]
 
     def derivative(self, y: State) -> State:
-        return tuple(self._problem.derivative(self._m, y, self._parameters))
+        return tuple(self._problem.derivative(self._m, NO_TIME, y, self._parameters))
 
     def velocity(self, momenta: State) -> State:
-        return tuple(self._problem.velocity(self._m, momenta, self._parameters))
+        return tuple(self._problem.velocity(self._m, NO_TIME, momenta, self._parameters))
 
     def force(self, positions: State) -> State:
-        return tuple(self._problem.force(self._m, positions, self._parameters))
+        return tuple(self._problem.force(self._m, NO_TIME, positions, self._parameters))
 
     def jet(self, y: State, order: int) -> list[State]:
-        return jet(self._m, lambda m, state: self._problem.derivative(m, state, self._parameters), y, order)
+        return jet(self._m, lambda m, state: self._problem.derivative(m, NO_TIME, state, self._parameters), y, order)
+
+    @property
+    def level(self) -> Any:
+        """The first invariant at the start."""
+        return self.levels[0]
 
     def invariant(self, y: State) -> Any:
-        return self.level if not conserves(self._problem) else self._problem.invariant(self._m, y, self._parameters)
+        return self.invariants(y)[0]
+
+    def invariants(self, y: State) -> tuple[Any, ...]:
+        """Every invariant at a state."""
+        declared = self._problem.invariants
+        return tuple(getattr(self._problem, one.value)(self._m, y, self._parameters) for one in declared)
 
     def jacobian(self, y: State) -> tuple[State, ...]:
         return tuple(
-            self._slopes(rate) for rate in self._problem.derivative(self._duals, self._variables(y), self._parameters)
+            self._slopes(rate)
+            for rate in self._problem.derivative(self._duals, NO_TIME, self._variables(y), self._parameters)
         )
 
     def gradient(self, y: State) -> State:
-        return self._slopes(self._problem.invariant(self._duals, self._variables(y), self._parameters))
+        return self.gradients(y)[0]
+
+    def gradients(self, y: State) -> tuple[State, ...]:
+        """The slopes of every invariant."""
+        variables, declared = self._variables(y), self._problem.invariants
+        found = (getattr(self._problem, one.value)(self._duals, variables, self._parameters) for one in declared)
+        return tuple(map(self._slopes, found))
 
     def _variables(self, y: State) -> list[Dual]:
         return [self._duals.variable(value, place) for place, value in enumerate(y)]
@@ -117,6 +145,7 @@ class BoundSystem:
 
 
 def plain_system(problem: Problem, fmt: Precision, parameters: np.ndarray) -> BoundSystem:
-    """The equation over NumPy arrays of a format, one lane a column of the parameter rows."""
-    values = dict(zip(problem.parameters, parameters[2:], strict=True))
-    return BoundSystem(problem, FormatArithmetic(fmt), values, fmt, parameters[1])
+    """The equation over NumPy arrays of a format, one lane a column of the parameter rows: h, levels, parameters."""
+    levels, values = parameters[1 : 1 + len(problem.invariants)], parameters[1 + len(problem.invariants) :]
+    named = dict(zip(problem.parameters, values, strict=True))
+    return BoundSystem(problem, FormatArithmetic(fmt), named, fmt, tuple(levels))

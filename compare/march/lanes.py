@@ -7,17 +7,18 @@ from fractions import Fraction
 from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
-from compare.march.aspects import conserves
+from flint import arb
+
 from reference.arithmetic.namespaces import BALL
+from reference.arithmetic.rational import RATIONAL, IrrationalError
 
 if TYPE_CHECKING:
     import numpy as np
-    from flint import arb
 
     from compare.march.precision import Precision
     from reference.problem import Problem
 
-__all__ = ["Lane", "March", "StartInvariant", "grain_of", "sample_steps", "start_level"]
+__all__ = ["Lane", "March", "StartInvariant", "drift_scales", "grain_of", "sample_steps", "start_levels"]
 
 LONG_BLOCKS = (64, 32, 16)
 LONG_MARCH = 8192
@@ -46,37 +47,62 @@ class March:
 
     Attributes:
         states: [samples, state] in the format; NaN where the stage equations of an implicit method did not converge.
-        max_drift: the largest |invariant - its start| after any step.
+        max_drifts: for each invariant the largest |invariant - its start| after any step.
         evaluations: of the right-hand side, over the march.
         jacobians: evaluations of its Jacobian, or of the invariant's gradient.
     """
 
     states: np.ndarray
-    max_drift: float
+    max_drifts: tuple[float, ...]
     evaluations: int
     jacobians: int
 
 
 @dataclass(frozen=True)
 class StartInvariant:
-    """The invariant of a problem at its exact start, to be rounded to any format."""
+    """A value of a problem's at its exact start, of the method of this name, to be rounded to any format."""
 
     problem: Problem
+    value: str = "invariant"
 
     def ball(self) -> arb:
-        """The enclosure at the precision in force; 0 where the problem conserves nothing."""
-        if not conserves(self.problem):
-            return BALL.number(Fraction(0))
-        start = [BALL.number(value) for value in self.problem.start]
-        parameters = {name: BALL.number(value) for name, value in self.problem.parameters.items()}
-        ball: arb = self.problem.invariant(BALL, start, parameters)
+        """The enclosure at the precision in force."""
+        ball: arb = arb(self._at(BALL))
         return ball
+
+    def exact(self) -> Fraction | None:
+        """The value itself where it is rational, which no ball might decide; None where it is not known to be."""
+        try:
+            found = self._at(RATIONAL)
+        except IrrationalError:
+            return None
+        return Fraction(found) if isinstance(found, (int, Fraction)) else None
+
+    def _at(self, m: Any) -> Any:
+        start = [m.number(value) for value in self.problem.start]
+        parameters = {name: m.number(value) for name, value in self.problem.parameters.items()}
+        return getattr(self.problem, self.value)(m, start, parameters)
 
 
 @lru_cache(maxsize=256)
-def start_level(problem: Problem, fmt: Precision) -> Any:
-    """The invariant of a problem at its start as a number of a format, kept."""
-    return fmt.number(StartInvariant(problem))
+def start_levels(problem: Problem, fmt: Precision) -> tuple[Any, ...]:
+    """Each invariant of a problem at its start as a number of a format, kept."""
+    return tuple(_rounded(StartInvariant(problem, one.value), fmt) for one in problem.invariants)
+
+
+@lru_cache(maxsize=256)
+def drift_scales(problem: Problem, fmt: Precision) -> tuple[Any, ...]:
+    """What the drift of each invariant is divided by, as a positive number of a format; zero where there is none."""
+    levels = start_levels(problem, fmt)
+    return tuple(
+        abs(level) if one.scale == "start" else abs(_rounded(StartInvariant(problem, one.scale), fmt))
+        for one, level in zip(problem.invariants, levels, strict=True)
+    )
+
+
+def _rounded(value: StartInvariant, fmt: Precision) -> Any:
+    exact = value.exact()
+    return fmt.number(value if exact is None else exact)
 
 
 def sample_steps(n: int, count: int) -> tuple[int, ...]:

@@ -18,10 +18,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from compare.march.aspects import conserves
 from compare.march.block_size import INLINE_SINE, Shape
-from compare.march.lanes import Lane, March, StartInvariant, grain_of, sample_steps, start_level
-from compare.march.trace import compile_block, entry_rows, plain_block
+from compare.march.lanes import Lane, March, StartInvariant, grain_of, sample_steps, start_levels
+from compare.march.trace import carried, compile_block, entry_rows, plain_block
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -116,9 +115,9 @@ def _sorted(method: Method, lanes: Sequence[Lane], fmt: Precision) -> dict[tuple
     """The places of the lanes that can share a block, by (equation, grain, iterations), in order of falling N."""
     groups: dict[tuple[_Equation, int, int], list[int]] = defaultdict(list)
     for i, lane in enumerate(lanes):
-        if method.separable_only and not getattr(lane.problem, "positions", 0):
+        if method.separable_only and not lane.problem.positions:
             raise ValueError(f"{method.name} needs positions apart from momenta; {lane.problem.name} is not separable.")
-        if method.family == "conservative" and not conserves(lane.problem):
+        if method.family == "conservative" and not lane.problem.invariants:
             raise ValueError(f"{method.name} keeps an invariant, and {lane.problem.name} has none.")
         iterations = iterations_for(method, lane.problem, float(lane.h), fmt.bits)
         grain = grain_of(lane.n)
@@ -137,15 +136,14 @@ def converged(change: float, states: np.ndarray, fmt: Precision) -> bool:
 
 @dataclass(frozen=True)
 class _Equation:
-    """What problems must share to share a block: an equation, which on a curve depends on more than parameters."""
+    """What problems must share to share a block: an equation, whatever its parameters."""
 
-    family: type
-    curve: Any
+    structure: Any
     problem: Problem = field(compare=False)
 
     @classmethod
     def of(cls, problem: Problem) -> _Equation:
-        return cls(type(problem), getattr(problem, "curve", None), problem)
+        return cls(problem.structure, problem)
 
 
 @lru_cache(maxsize=64)
@@ -171,18 +169,18 @@ class _Group:
         self.method, self.lanes, self.fmt = method, lanes, fmt
         self.every, self.steps, self.batch = shape.record == "every", shape.steps, shape.batch
         self.iterations = shape.iterations
-        self.dimension = len(lanes[0].problem.state_names)
+        self.dimension, self.carried = len(lanes[0].problem.state_names), carried(lanes[0].problem)
         self.ends = np.array([lane.n for lane in lanes])
         self.block = _compiled(method, _Equation.of(lanes[0].problem), fmt, shape)
         self.states = self._room(lanes)
-        self.maxima = np.zeros((len(lanes), 2))
+        self.maxima = np.zeros((len(lanes), self.carried))
         self.seconds = math.nan
 
     def alone(self, lane: Lane) -> _Group:
         """A group of one of the lanes that shares the compiled block."""
         one = copy.copy(self)
         one.lanes, one.ends = [lane], np.array([lane.n])
-        one.states, one.maxima = self._room([lane]), np.zeros((1, 2))
+        one.states, one.maxima = self._room([lane]), np.zeros((1, self.carried))
         return one
 
     def _room(self, lanes: Sequence[Lane]) -> np.ndarray:
@@ -214,7 +212,7 @@ class _Group:
             if len(waiting) == WAITING or (waiting and taken in closing):
                 self._settle(waiting)
             if taken in closing:
-                self._close(spare[-2:], taken)
+                self._close(spare[-self.carried :], taken)
                 width = self._width(taken)
                 if width < lanes.shape[1]:
                     shrunk = (np.ascontiguousarray(array[:, :width]) for array in (lanes, parameters, out, spare))
@@ -230,12 +228,12 @@ class _Group:
         names = list(padded[0].problem.parameters)
         parameters = [
             self.fmt.array(lane.h for lane in padded),
-            np.array([start_level(lane.problem, self.fmt) for lane in padded], dtype=self.fmt.type),
+            *np.array([start_levels(lane.problem, self.fmt) for lane in padded], dtype=self.fmt.type).T,
             *(self.fmt.array(lane.problem.parameters[name] for lane in padded) for name in names),
         ]
         values = np.stack(parameters)
         rows = entry_rows(self.method, padded[0].problem, self.fmt, np.stack(starts), values)[0]
-        rows[-2:] = self.fmt.zeros((2, len(padded)))
+        rows[-self.carried :] = self.fmt.zeros((self.carried, len(padded)))
         return rows, values
 
     def _opening(self, lanes: np.ndarray, parameters: np.ndarray) -> np.ndarray:
@@ -244,7 +242,7 @@ class _Group:
         rows = plain_block(self.method, problem, self.fmt, states, parameters, self.steps, self.iterations)
         if self.every:
             return rows.reshape(-1, lanes.shape[1])
-        return np.concatenate([rows[-1, :-2], rows[:, -2:].max(axis=0)])
+        return np.concatenate([rows[-1, : -self.carried], rows[:, -self.carried :].max(axis=0)])
 
     def _events(self) -> dict[int, np.ndarray]:
         """Steps taken at the end of a block -> rows (lane, sample, index in the block's output) of states to keep."""
@@ -263,7 +261,7 @@ class _Group:
             lane, sample, index = events
             self.states[lane, sample] = outputs[index, : self.dimension, lane]
         count = min(len(self.lanes), outputs.shape[2])
-        values = outputs[:, -2:, :count].astype(np.float64)
+        values = outputs[:, -self.carried :, :count].astype(np.float64)
         step = np.arange(taken - self.steps, taken)[:, None, None]
         largest = np.where(step < self.ends[:count], values, 0.0).max(axis=0)
         self.maxima[:count] = np.maximum(self.maxima[:count], largest.T)
@@ -288,9 +286,9 @@ class _Group:
     def _result(self, i: int) -> March:
         lane = self.lanes[i]
         states = self.states[i, : len(lane.samples)]
-        drift, change = self.maxima[i]
-        if not converged(float(change), states, self.fmt):
-            states, drift = np.full(states.shape, np.nan), math.nan
+        *drifts, change = map(float, self.maxima[i])
+        if not converged(change, states, self.fmt):
+            states, drifts = np.full(states.shape, np.nan), [math.nan] * len(drifts)
         per_step, once = self.method.evaluations(self.iterations)
         own = max(lane.n - self.method.opening, 0)
-        return March(states, float(drift), per_step * own + once, self.method.jacobians(self.iterations) * own)
+        return March(states, tuple(drifts), per_step * own + once, self.method.jacobians(self.iterations) * own)

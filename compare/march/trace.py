@@ -14,11 +14,10 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
-from compare.march.aspects import aspect_of
 from compare.march.equation import BoundSystem, plain_system
 from compare.march.sine import LaneArithmetic
 from compare.methods.order.algebraic import Q
-from reference.arithmetic.compiler import hy
+from reference.arithmetic.compiler import hy, parameter_rows
 from reference.arithmetic.namespaces import Heyoka
 
 if TYPE_CHECKING:
@@ -28,7 +27,7 @@ if TYPE_CHECKING:
     from compare.methods.kinds.protocol import Method, State
     from reference.problem import Problem
 
-__all__ = ["Block", "Record", "TraceError", "compile_block", "entry_rows", "plain_block", "slopes_of"]
+__all__ = ["Block", "Record", "TraceError", "carried", "compile_block", "entry_rows", "plain_block", "slopes_of"]
 
 
 def slopes_of(step: Sequence[Any], variables: Sequence[Any]) -> np.ndarray:
@@ -49,19 +48,21 @@ class TraceError(ArithmeticError):
 class Block:
     """``steps`` compiled steps over lanes.
 
-    Rows of the input are the state, the method's memory, then two that carry the running maxima of |invariant - start|
-    and of the change by the last iteration.  Rows of the output are the same: once, or with record "every" once per
-    step with the values of that step in place of the maxima.  Parameter rows: h, the start's invariant, the parameters.
+    Rows of the input are the state, the method's memory, then those that carry the running maxima: of each
+    |invariant - start|, and of the change by the last iteration.  Rows of the output are the same: once, or with record
+    "every" once per step with the values of that step in place of the maxima.  Parameter rows: h, the invariants at the
+    start, the parameters; of these the function takes those up to the last that occurs in it.
     """
 
     function: Any
     steps: int
     batch: int
     record: Record
+    parameters: int
 
     def __call__(self, lanes: np.ndarray, parameters: np.ndarray, out: np.ndarray) -> None:
         """Advance C-contiguous ``lanes`` [rows, lanes], whose number is a multiple of the batch, into ``out``."""
-        self.function(lanes, pars=parameters, outputs=out, batch_parallel=False)
+        self.function(lanes, pars=parameters[: self.parameters], outputs=out, batch_parallel=False)
 
     def out_rows(self, rows: int) -> int:
         """How many rows the output has for inputs of ``rows`` rows."""
@@ -106,24 +107,28 @@ def compile_block(
         TraceError: the compiled block does not agree with the plain steps at random points.
     """
     dimension = len(problem.state_names)
-    remembered = method.memory(dimension, getattr(problem, "positions", 0))
+    remembered = method.memory(dimension, problem.positions)
     y = _variables([*problem.state_names, *(f"memory_{i}" for i in range(remembered))])
-    symbols = {name: hy.par[i + 2] for i, name in enumerate(problem.parameters)}
+    kept = len(problem.invariants)
+    levels = [hy.par[1 + i] for i in range(kept)]
+    symbols = {name: hy.par[i + 1 + kept] for i, name in enumerate(problem.parameters)}
     arithmetic = (LaneArithmetic if inline_sine else Heyoka)(fmt.number)
-    system = BoundSystem(problem, arithmetic, symbols, fmt, hy.par[1])
-    maxima = _variables(("drift", "change"))
+    system = BoundSystem(problem, arithmetic, symbols, fmt, levels)
+    maxima = _variables((*(f"drift_{i}" for i in range(kept)), "change"))
     every: list[Any] = []
     state, largest = y, maxima
     for _ in range(steps):
         state, changes = method.step(system, state, hy.par[0], iterations)
-        off = _size([system.invariant(state[:dimension]) - hy.par[1]]) if drift else maxima[0]
+        now = zip(system.invariants(state[:dimension]), levels, strict=True) if drift else ()
+        off = [_size([value - level]) for value, level in now] if drift else list(maxima[:-1])
         moved = _size(changes) if changes else hy.expression(0.0)
-        every += [*state, off, moved]
-        largest = (_greater(off, largest[0]) if drift else off), _greater(moved, largest[1])
+        every += [*state, *off, moved]
+        drifts = [_greater(*pair) for pair in zip(off, largest[:-1], strict=True)] if drift else off
+        largest = *drifts, _greater(moved, largest[-1])
     outputs = list(map(_expression, every if record == "every" else [*state, *largest]))
     options = {"fast_math": fast_math, **fmt.compiler_options, **({"opt_level": 0} if brief else {})}
     function = hy.cfunc(outputs, vars=[*y, *maxima], batch_size=batch, **options)
-    block = Block(function, steps, batch, record)
+    block = Block(function, steps, batch, record, parameter_rows(outputs))
     _trust(block, method, problem, fmt, iterations)
     return block
 
@@ -151,6 +156,11 @@ def entry_rows(
     return np.stack([_rows(system, fmt, state, ()) for state in (*((*state, *blank) for state in before), y)])
 
 
+def carried(problem: Problem) -> int:
+    """How many rows carry maxima: one for each invariant, and one for the change by the last iteration."""
+    return len(problem.invariants) + 1
+
+
 def plain_block(
     method: Method,
     problem: Problem,
@@ -163,7 +173,7 @@ def plain_block(
     """The first steps of a march on NumPy arrays, the method's opening among them: [steps, rows, lanes]."""
     system = plain_system(problem, fmt, parameters)
     found = list(entry_rows(method, problem, fmt, states, parameters))
-    y: State = tuple(found[-1][:-2])
+    y: State = tuple(found[-1][: -carried(problem)])
     while len(found) <= steps:
         y, changes = method.step(system, y, parameters[0], iterations)
         found.append(_rows(system, fmt, y, changes))
@@ -171,11 +181,12 @@ def plain_block(
 
 
 def _rows(system: BoundSystem, fmt: Precision, y: State, changes: State) -> np.ndarray:
-    """State, memory, |invariant - start| and the largest change of one step over all lanes."""
+    """State, memory, each |invariant - start| and the largest change of one step over all lanes."""
     zero = fmt.zeros(np.shape(y[0]))
-    off = np.abs(system.invariant(y[: system.dimension]) - system.level)
+    now = zip(system.invariants(y[: system.dimension]), system.levels, strict=True)
+    off = [np.abs(value - level) + zero for value, level in now]
     moved = np.max(np.abs(np.stack(np.broadcast_arrays(*changes))), axis=0) if changes else zero
-    return np.stack([*(component + zero for component in y), off, moved])
+    return np.stack([*(component + zero for component in y), *off, moved])
 
 
 def _trust(block: Block, method: Method, problem: Problem, fmt: Precision, iterations: int) -> None:
@@ -197,17 +208,18 @@ def _trust(block: Block, method: Method, problem: Problem, fmt: Precision, itera
 
 
 def _random_points(problem: Problem, fmt: Precision, batch: int) -> tuple[np.ndarray, np.ndarray]:
-    """Random states, step sizes and parameters within the family's intervals for a trial, each its own level."""
+    """Random states, step sizes and parameters within the problem's intervals for a trial, each its own levels."""
     random = np.random.default_rng(20260101)
     lanes_count = batch * -(-CHECK_LANES // batch)
-    trial = aspect_of(problem).trial
+    trial, kept = problem.trial, len(problem.invariants)
 
     def column(low: float, high: float) -> np.ndarray:
         return fmt.array(Q(float(value)) for value in random.uniform(low, high, lanes_count))
 
-    states = np.stack([column(*trial.state(i)) for i in range(len(problem.state_names))])
-    values = [column(*trial.parameter(name)) for name in problem.parameters]
+    states = np.stack([column(*interval) for interval in trial.states])
+    values = [column(*trial.parameters[name]) for name in problem.parameters]
     h = column(*trial.step)
-    parameters = np.stack([h, fmt.zeros(h.shape), *values])
-    parameters[1] = plain_system(problem, fmt, parameters).invariant(tuple(states))
+    parameters = np.stack([h, *[fmt.zeros(h.shape)] * kept, *values])
+    for i, level in enumerate(plain_system(problem, fmt, parameters).invariants(tuple(states))):
+        parameters[1 + i] = level
     return states, parameters

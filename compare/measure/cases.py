@@ -1,46 +1,21 @@
-"""What tells a problem from others of its study: the inputs of each family, and how its tables name what they hold."""
+"""What tells a problem from others of its study, how its tables name what they hold, and which scores it lacks."""
 
 from __future__ import annotations
 
 import math
 from functools import lru_cache
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
-from compare.march.aspects import aspect_of, conserves, period_of
 from compare.measure.records import Case
+from reference.arithmetic.precision import ctx
 
 if TYPE_CHECKING:
     from reference.problem import Problem
 
 __all__ = ["case_of"]
 
-FORMS = {
-    "cycloid": "motion",
-    "cycloid arc": "curve",
-    "tautochrone": "angle",
-    "cycloidal pendulum": "arc",
-    "polar": "time",
-    "polar curve in z": "z",
-    "polar curve in psi": "psi",
-}
-"""The forms of one family's equations, by the names of the problems."""
-INPUTS = {
-    "pendulum": ("theta0", "omega0"),
-    "linear pendulum": ("theta0", "omega0"),
-    "cycloid": ("end_x", "end_y"),
-    "cycloid arc": ("radius",),
-    "tautochrone": ("angle",),
-    "cycloidal pendulum": ("arc",),
-    "descent": ("curve", "released"),
-    "polar": ("z0",),
-    "tunnel": ("z0",),
-    "polar curve in z": ("z0",),
-    "polar curve in psi": ("z0",),
-}
-"""The attributes of a problem that tell it from others of its family."""
-UNITS = {"theta0": "rad", "omega0": "rad/s", "end_x": "m", "end_y": "m", "radius": "m", "angle": "rad", "arc": "m"}
-STEPS = {"time": "s", "height": "m", "psi": "rad"}
-"""Units of the step by what a state is a function of."""
+ENOUGH_BITS = 64
+"""Working precision at which it is seen whether there are orbits."""
 
 
 def case_of(problem: Problem) -> Case:
@@ -51,60 +26,71 @@ def case_of(problem: Problem) -> Case:
 @lru_cache(maxsize=256)
 def _case(problem: Problem, text: str) -> Case:
     """The same, kept; equal problems may be spelt otherwise."""
-    aspect, over = aspect_of(problem), problem.row("state").over
-    form = FORMS.get(problem.name, "")
-    inputs = {name: _value(getattr(problem, name)) for name in INPUTS.get(problem.name, ())}
-    shown = {name: value for name, value in inputs.items() if not (name in {"omega0", "released"} and not value)}
-    words = [f"{name} = {value!r} {UNITS.get(name, '')}".rstrip() for name, value in shown.items()]
-    words = [word.replace("'", "") for word in words] or [text]
-    step = STEPS.get(over, "")
-    period = math.isfinite(period_of(problem))
+    space, form, inputs = problem.space, problem.form, problem.inputs
+    words = [f"{name} = {_shown(value)} {units}".rstrip() for name, (value, units) in inputs.items()] or [text]
+    step = space.independent
     return Case(
         problem=text,
-        inputs=(*((("form", form),) if form else ()), *shown.items()),
-        label=", ".join([*([_in_words(form)] if form else []), *words]),
+        inputs=(
+            *((("form", form.name),) if form else ()),
+            *((name, value) for name, (value, _) in inputs.items()),
+        ),
+        label=", ".join([*([form.words] if form else []), *words]),
         error=_error(problem),
-        unit=aspect.angle,
-        samples="times" if over in {"time", "tau"} else "points",
+        unit=_units(problem, space.positions[0]) if space.scale == "units" else "",
+        samples="times" if space.along is None or problem.row("state").over == "time" else "points",
         step=step,
-        drift=aspect.invariant if conserves(problem) else None,
+        invariants=problem.invariants,
         energy=problem.serves("energy"),
-        cycle="period" if period else step or "unit",
+        cycle="period" if math.isfinite(problem.cycle()) else step or "unit",
         axes=_axes(problem),
+        pair=space.pairs[0] if space.rates else (),
+        lacks=tuple(_lacks(problem).items()),
     )
 
 
+def _shown(value: float | str) -> str:
+    return value.replace("'", "") if isinstance(value, str) else repr(value)
+
+
+def _units(problem: Problem, component: str) -> str:
+    """The units of a component, "" for a pure number."""
+    quantities = problem.row("state").quantities
+    return quantities[problem.state_names.index(component)].units.removeprefix("1")
+
+
 def _axes(problem: Problem) -> tuple[str, ...]:
-    """The names of place and velocity with their units."""
-    if problem.name == "pendulum":
-        return "angle θ [rad]", "angular velocity ω [rad/s]"
-    if not aspect_of(problem).rates:
-        return ()
-    named = [f"{quantity.long_name} [{quantity.units}]" for quantity in problem.row("state").quantities[:2]]
+    """The names of the first position and its rate with their units."""
+    space = problem.space
+    if not space.rates or space.axes:
+        return space.axes
+    quantities = problem.row("state").quantities
+    named = [f"{quantities[i].long_name} [{quantities[i].units}]" for i in space.pairs[0]]
     return tuple(name.removesuffix(" [1]") for name in named)
 
 
-def _value(value: Any) -> Any:
-    """A number as a double, a curve as its name."""
-    return value.name if hasattr(value, "name") else float(value)
-
-
-def _in_words(form: str) -> str:
-    return {
-        "motion": "motion",
-        "curve": "curve dx/dy",
-        "angle": "by the angle",
-        "arc": "by the arc",
-        "time": "in time",
-        "z": "curve dphi/dz",
-        "psi": "curve dphi/dpsi",
-    }[form]
-
-
 def _error(problem: Problem) -> str:
-    """What the error of the place is, and what it is measured in."""
-    aspect = aspect_of(problem)
-    names = [problem.state_names[i] for i in aspect.places]
+    """What the position error is, and what it is measured in."""
+    names = problem.space.positions
+    absolute = problem.space.scale == "units"
     if len(names) > 1:
-        return f"error of {' or '.join(names)} relative to its largest value"
-    return f"|{names[0]} - exact|" + ("" if aspect.angle else f"/max |{names[0]}|")
+        return f"error of {' or '.join(names)}" + ("" if absolute else " relative to its largest value")
+    return f"|{names[0]} - exact|" + ("" if absolute else f"/max |{names[0]}|")
+
+
+def _lacks(problem: Problem) -> dict[str, str]:
+    """The scores that need what the problem has not, each with the reason."""
+    space, found = problem.space, {}
+    if not problem.invariants:
+        found["drift"] = "nothing is conserved"
+    with ctx.workprec(ENOUGH_BITS):
+        orbital = problem.orbits() is not None
+    if not orbital:
+        found["phase"] = problem.lacks_of_orbits.removesuffix(".")
+    if not orbital or not math.isfinite(problem.cycle()):
+        found["period"] = "the exact motion has no period" + ("" if orbital else " that orbits are known for")
+    if space.along is not None and problem.row("state").over != "time":
+        found["growth"] = "along a curve there is no time to grow in"
+    if space.odd is None and not space.rates:
+        found["defects"] = "there are no momenta, and turning back means nothing"
+    return found

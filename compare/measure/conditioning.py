@@ -16,9 +16,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from compare.march.aspects import aspect_of, conserves
-from compare.march.equation import BoundSystem, FormatArithmetic
-from compare.march.lanes import StartInvariant
+from compare.march.equation import NO_TIME, BoundSystem, FormatArithmetic
+from compare.march.lanes import StartInvariant, drift_scales, start_levels
 from compare.march.precision import precision
 from reference.arithmetic.namespaces import NUMPY
 from reference.arithmetic.precision import ctx
@@ -45,7 +44,7 @@ class Reach:
         units: what the error of each component is measured in: its size, or 1 where errors are left as they are.
         led: how far one rounding leads each component.
         place_led: the same of the place, in its unit; along a curve also what a rounding of the coordinate makes of it.
-        drift_led: the same of the change of the conserved quantity, relative to its start; NaN where there is none.
+        drift_led: the same of the change of each invariant, over its scale; NaN where that is zero.
         slopes: how fast the place changes with the component that it is a function of, at each time; else zeros.
         bends: how fast those slopes do: steps that begin or end there take slopes that are off.
         apart: how far the neighbour begins, in start or parameters, in units of their sizes.
@@ -55,7 +54,7 @@ class Reach:
     units: np.ndarray
     led: np.ndarray
     place_led: float
-    drift_led: float
+    drift_led: np.ndarray
     slopes: np.ndarray
     bends: np.ndarray
     apart: float
@@ -63,24 +62,25 @@ class Reach:
 
 def reach(problem: Problem, truth: np.ndarray, near: Problem, other: np.ndarray, fmt: Precision) -> Reach:
     """The reach of a problem, given limbs [samples, state, limbs] of its states and of a neighbour's."""
-    motion, aspect = _Motion(problem, truth[:, :, 0].T), aspect_of(problem)
+    motion, space = _Motion(problem, truth[:, :, 0].T), problem.space
     sizes = np.max(np.abs(motion.state), axis=1)
     sizes = np.where(sizes > 0, sizes, 1.0)
-    units = np.ones_like(sizes) if aspect.angle else sizes
+    units = np.ones_like(sizes) if space.scale == "units" else sizes
     apart, gap = _apart(problem, near, sizes), np.sum(other - truth, axis=2).T
     raised = _raised(problem, near, fmt) if _in_one_plane(problem, near) else 0.0
     if raised:
         led = motion.led(gap / raised) + sizes
     else:
         led = FURTHER * (1 + np.max(np.abs(gap), axis=1) / sizes / (apart or 1.0)) * sizes
-    places = list(aspect.places)
+    places = space.places(space.positions)
     place_led, slopes = float(np.max((led / units)[places])), np.zeros(len(truth))
     bends = np.zeros(len(truth))
-    if aspect.along is not None:
-        rates, before, shift = motion.rates(), *motion.rates_before(aspect.along)
-        slopes = np.max([np.abs(rates[i]) / units[i] for i in aspect.places], axis=0)
-        bends = np.max([np.abs(rates[i] - before[i]) / units[i] for i in aspect.places], axis=0) / shift
-        place_led += float(np.max(slopes) * sizes[aspect.along] * np.max((sizes / units)[places]))
+    if space.along is not None:
+        (along,) = space.places([space.along])
+        rates, before, shift = motion.rates(), *motion.rates_before(along)
+        slopes = np.max([np.abs(rates[i]) / units[i] for i in places], axis=0)
+        bends = np.max([np.abs(rates[i] - before[i]) / units[i] for i in places], axis=0) / shift
+        place_led += float(np.max(slopes) * sizes[along] * np.max((sizes / units)[places]))
     epsilon = fmt.epsilon
     return Reach(sizes, units, epsilon * led, epsilon * place_led, epsilon * motion.drift_led(), slopes, bends, apart)
 
@@ -95,8 +95,9 @@ def _apart(problem: Problem, near: Problem, sizes: np.ndarray) -> float:
 
 def _in_one_plane(problem: Problem, near: Problem) -> bool:
     """Whether the state is a place and its velocity, and the neighbour another motion of the same equation."""
-    planar = len(problem.state_names) == 2 and conserves(problem) and aspect_of(problem).along is None
-    return planar and problem.parameters == near.parameters
+    space = problem.space
+    planar = space.components == (*space.positions, *space.rates) and len(space.pairs) == len(space.positions) == 1
+    return planar and bool(problem.invariants) and problem.parameters == near.parameters
 
 
 def _raised(problem: Problem, near: Problem, fmt: Precision) -> float:
@@ -112,29 +113,35 @@ class _Motion:
         fmt = precision("float64")
         self.problem, self.state = problem, state
         self.parameters = {name: float(value) for name, value in problem.parameters.items()}
-        self.level = float(fmt.number(StartInvariant(problem)))
-        self._system = BoundSystem(problem, FormatArithmetic(fmt), self.parameters, fmt, self.level)
+        self._scales = drift_scales(problem, fmt)
+        self._system = BoundSystem(problem, FormatArithmetic(fmt), self.parameters, fmt, start_levels(problem, fmt))
 
     def rates(self) -> tuple[np.ndarray, ...]:
         """The slopes of the components by what they are functions of."""
-        return tuple(np.asarray(rate) for rate in self.problem.derivative(NUMPY, tuple(self.state), self.parameters))
+        return tuple(
+            np.asarray(rate) for rate in self.problem.derivative(NUMPY, NO_TIME, tuple(self.state), self.parameters)
+        )
 
     def rates_before(self, along: int) -> tuple[tuple[np.ndarray, ...], np.ndarray]:
         """The slopes a little before, in the component that the others are functions of, and how little."""
         shift, state = BEFORE * self.state[along], self.state.copy()
         state[along] -= shift
-        return tuple(np.asarray(r) for r in self.problem.derivative(NUMPY, tuple(state), self.parameters)), shift
+        return tuple(
+            np.asarray(r) for r in self.problem.derivative(NUMPY, NO_TIME, tuple(state), self.parameters)
+        ), shift
 
     def _slopes_of_energy(self, state: np.ndarray) -> tuple[np.ndarray, ...]:
         return tuple(self._system.gradient(tuple(state)))
 
-    def drift_led(self) -> float:
-        """How far one rounding leads E/E0: one of a component y changes E by |y dE/dy| of it; NaN without an E."""
-        if not conserves(self.problem) or not self.level:
-            return math.nan
-        slopes = self._slopes_of_energy(self.state)
-        changes = sum(np.abs(y * slope) for y, slope in zip(self.state, slopes, strict=True))
-        return float(np.max(changes)) / abs(self.level)
+    def drift_led(self) -> np.ndarray:
+        """How far one rounding leads each invariant over its scale: one of a component y changes it by |y dE/dy|."""
+        found = np.full(len(self.problem.invariants), math.nan)
+        gradients = self._system.gradients(tuple(self.state))
+        for i, (slopes, scale) in enumerate(zip(gradients, self._scales, strict=True)):
+            if scale:
+                changes = sum(np.abs(y * slope) for y, slope in zip(self.state, slopes, strict=True))
+                found[i] = float(np.max(changes)) / scale
+        return found
 
     def led(self, of_energy: np.ndarray) -> np.ndarray:
         """|z_E| dE + |z'| dtau at its largest, for roundings of one part in a unit, given z_E [state, samples]."""
@@ -146,7 +153,9 @@ class _Motion:
         return led
 
     def _mass(self) -> np.ndarray:
-        """M, the second slope of the energy by the velocity."""
+        """M, the second slope of the energy by the velocity; 1 of a momentum, which has it in it."""
+        if self.problem.space.momenta:
+            return np.ones_like(self.state[1])
         still, moving = self.state.copy(), self.state.copy()
         still[1], moving[1] = 0.0, 1.0
         return np.asarray(self._slopes_of_energy(moving)[1] - self._slopes_of_energy(still)[1])

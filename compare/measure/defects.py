@@ -1,7 +1,9 @@
-"""What a step keeps of the geometry of the exact motion: area in phase space, and the way back.
+"""What a step keeps of the geometry of the exact motion: the symplectic form, and the way back.
 
-With the energy M(q) q'^2/2 + V(q) the momentum is M q', so that the area that the exact motion keeps is M dq dq': the
-determinant of a step in (q, q') counts with M after the step over M before it.
+The exact flow keeps W = sum dq_i dp_i.  With an energy E(q, q') that is quadratic in the velocities the momenta are its
+slopes p = dE/dq', and with P = d(q, p)/d(q, q') the form in (q, q') is P' W P, at the state where it is taken: a step
+with the derivative S keeps it if S' (P' W P after the step) S is P' W P before it.  With one degree of freedom this is
+det S M(after)/M(before) = 1, M the mass.
 """
 
 from __future__ import annotations
@@ -12,25 +14,26 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from compare.march.aspects import conserves
-from compare.march.equation import BoundSystem, plain_system
-from compare.march.lanes import Lane, start_level
+from compare.march.equation import BoundSystem
+from compare.march.lanes import Lane, start_levels
 from compare.march.march import converged, iterations_for, march
 from compare.march.trace import slopes_of
 from compare.measure.records import Defect
 from compare.measure.result import exactly
 from compare.methods.kinds.compensated import Compensated
-from reference.arithmetic.compiler import hy
+from reference.arithmetic.compiler import hy, parameter_rows
 from reference.arithmetic.namespaces import Heyoka
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Callable, Sequence
 
+    from compare.march.precision import Precision
     from compare.measure.result import Run
     from compare.measure.truth import Course
     from compare.methods.kinds.one_step import Method
+    from reference.problem import Problem
 
-__all__ = ["defects"]
+__all__ = ["canonical_form", "defects", "symplectic_change"]
 
 STATES = 16
 """States of the exact motion at which the area is measured."""
@@ -38,18 +41,16 @@ FURTHER = 4
 """So much of the difference between neighbours bounds what rounding made of one."""
 NEXT = 1 + Fraction(1, 1 << 40)
 """Where the way back of a lost march begins once more, over where it ended."""
-PAIR = 2
-"""Position and velocity are the first components of every state that has both."""
 
 
 def defects(runs: Sequence[Run]) -> list[Defect]:
     """A record for each run."""
-    areas: dict[Any, list[int]] = {}
+    problems: dict[Any, list[int]] = {}
     for i, run in enumerate(runs):
-        areas.setdefault(run.course.problem, []).append(i)
-    found = [NO_AREA] * len(runs)
-    for members in areas.values():
-        for i, defect in zip(members, _areas([runs[i] for i in members]), strict=True):
+        problems.setdefault(run.course.problem, []).append(i)
+    found = [NO_FORM] * len(runs)
+    for members in problems.values():
+        for i, defect in zip(members, _form_defects([runs[i] for i in members]), strict=True):
             found[i] = defect
     ways_back = _ways_back(runs)
     return [
@@ -58,51 +59,84 @@ def defects(runs: Sequence[Run]) -> list[Defect]:
             n=run.course.n,
             h=float(run.course.h),
             case=run.course.case,
-            symplecticity=area.defect,
+            symplecticity=form.defect,
             reversibility=back.distance,
-            symplecticity_rounding=area.rounding,
+            symplecticity_rounding=form.rounding,
             reversibility_rounding=max(2 * run.state_rounding, back.rounding),
         )
-        for run, area, back in zip(runs, found, ways_back, strict=True)
+        for run, form, back in zip(runs, found, ways_back, strict=True)
     ]
 
 
-class Area(NamedTuple):
-    """|det - 1| of a step, the largest, and a bound on rounding's part of it."""
+class FormDefect(NamedTuple):
+    """|S' W S - W|/|W| of a step S and the symplectic form W, the largest, and a bound on rounding's part of it."""
 
     defect: float
     rounding: float
 
 
-NO_AREA = Area(math.nan, math.nan)
+NO_FORM = FormDefect(math.nan, math.nan)
 
 
-def _areas(runs: Sequence[Run]) -> list[Area]:
-    """|det - 1| of runs of one problem; the step is compiled once."""
+def _form_defects(runs: Sequence[Run]) -> list[FormDefect]:
+    """Of runs of one problem; the step is compiled once."""
     method, course = runs[0].method, runs[0].course
     method = method.base if isinstance(method, Compensated) else method
     problem = course.problem
-    dimension = len(problem.state_names)
-    if not (conserves(problem) and course.aspect.rates) or method.memory(dimension, getattr(problem, "positions", 0)):
-        return [NO_AREA] * len(runs)
+    known = problem.space.momenta or (problem.space.velocities and problem.invariants)
+    if not known or method.memory(len(problem.state_names), problem.positions):
+        return [NO_FORM] * len(runs)
     largest = max(float(run.course.h) for run in runs)
-    function = _compiled(method, course, iterations_for(method, problem, largest, course.fmt.bits))
+    step = _compiled(method, course, iterations_for(method, problem, largest, course.fmt.bits))
+    form = _canonical(course)
     with np.errstate(all="ignore"):
-        return [NO_AREA if np.isnan(run.march.states).all() else _area(function, run) for run in runs]
+        return [NO_FORM if np.isnan(run.march.states).all() else _form_defect(step, form, run) for run in runs]
+
+
+def _symbols(course: Course) -> tuple[list[Any], BoundSystem]:
+    """The components of the state, and the equation in them; h is the first parameter."""
+    problem, fmt = course.problem, course.fmt
+    kept = len(problem.invariants)
+    variables = [hy.expression(name) for name in problem.state_names]
+    symbols = {name: hy.par[i + 1 + kept] for i, name in enumerate(problem.parameters)}
+    return variables, BoundSystem(problem, Heyoka(fmt.number), symbols, fmt, [hy.par[1 + i] for i in range(kept)])
+
+
+def _canonical_places(problem: Problem) -> list[int]:
+    """Where the positions that have a rate stand, and then their rates."""
+    return [place for column in zip(*problem.space.pairs, strict=True) for place in column]
 
 
 def _compiled(method: Method, course: Course, iterations: int) -> Any:
     """The state after a step, then its derivatives, row by row, then the changes of the last iteration."""
-    problem, fmt = course.problem, course.fmt
-    variables = [hy.expression(name) for name in problem.state_names]
-    symbols = {name: hy.par[i + 2] for i, name in enumerate(problem.parameters)}
-    system = BoundSystem(problem, Heyoka(fmt.number), symbols, fmt, hy.par[1])
+    variables, system = _symbols(course)
     step, changes = method.step(system, tuple(variables), hy.par[0], iterations)
-    entries = slopes_of(step[:PAIR], variables[:PAIR])
-    return hy.cfunc([*step, *entries.ravel(), *changes], vars=variables, **fmt.compiler_options)
+    places = _canonical_places(course.problem)
+    entries = slopes_of([step[i] for i in places], [variables[i] for i in places])
+    return _function([*step, *entries.ravel(), *changes], variables, course.fmt)
 
 
-def _area(function: Any, run: Run) -> Area:
+def _canonical(course: Course) -> Any:
+    """d(q, p)/d(q, q') row by row, p the energy's slopes by q'; None where the state has the momenta themselves."""
+    problem = course.problem
+    if problem.space.momenta:
+        return None
+    variables, system = _symbols(course)
+    gradient = system.gradient(tuple(variables))
+    momenta = [hy.expression(0.0) + gradient[rate] for _, rate in problem.space.pairs]
+    places = _canonical_places(problem)
+    canonical = [*(variables[i] for i in places[: len(momenta)]), *momenta]
+    entries = slopes_of(canonical, [variables[i] for i in places])
+    return _function(list(entries.ravel()), variables, course.fmt)
+
+
+def _function(outputs: list[Any], variables: list[Any], fmt: Precision) -> Callable[[np.ndarray, np.ndarray], Any]:
+    """The compiled outputs, as a function of states [state, lanes] and parameters [rows, lanes]."""
+    function, rows = hy.cfunc(outputs, vars=variables, **fmt.compiler_options), parameter_rows(outputs)
+    return lambda states, parameters: function(np.ascontiguousarray(states), pars=parameters[:rows])
+
+
+def _form_defect(step: Any, form: Any, run: Run) -> FormDefect:
     """At states of the exact motion; and rounding's part: one for an evaluation and their sum, of either product.
 
     A step that is too long carries roundings further: so do starts that are apart by one in all components.
@@ -111,42 +145,74 @@ def _area(function: Any, run: Run) -> Area:
     fmt, problem = course.fmt, course.problem
     chosen = np.linspace(0, len(course.times) - 1, STATES).round().astype(int)
     states = np.stack([_rounded(course, chosen, i) for i in range(len(problem.state_names))])
-    values = [fmt.number(course.h), start_level(problem, fmt), *map(fmt.number, problem.parameters.values())]
+    values = [fmt.number(course.h), *start_levels(problem, fmt), *map(fmt.number, problem.parameters.values())]
     parameters = np.repeat(np.array(values, dtype=fmt.type)[:, None], STATES, axis=1)
     near = states * fmt.number(1 + 2 * fmt.exact_epsilon)
-    (defects, products), (others, _) = (_determinants(function, course, parameters, y) for y in (states, near))
+    (defects, products), (others, _) = (_changes(step, form, course, parameters, y) for y in (states, near))
     roundings = fmt.epsilon * (1 + run.march.evaluations / course.n) * products
     apart = np.abs(defects - others)
-    return Area(float(np.max(np.abs(defects))), float(np.max(np.maximum(roundings, FURTHER * apart))))
+    return FormDefect(float(np.max(np.abs(defects))), float(np.max(np.maximum(roundings, FURTHER * apart))))
 
 
-def _determinants(
-    function: Any, course: Course, parameters: np.ndarray, states: np.ndarray
+def _changes(
+    step: Any, form: Any, course: Course, parameters: np.ndarray, states: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
-    """det - 1 of the step at each state, and the sum of the sizes of its two products."""
-    found = function(np.ascontiguousarray(states), pars=parameters)
-    after, (a, b, c, d), changes = np.split(found, [len(states), len(states) + PAIR**2])
+    """(S' W S - W)/|W| at each state, its largest entry, and the sum of the sizes of its products."""
+    size = 2 * len(course.problem.space.pairs)
+    found = step(states, parameters)
+    after, entries, changes = np.split(found, [len(states), len(states) + size**2])
     if not converged(float(np.max(np.abs(changes), initial=0.0)), after, course.fmt):
         after = np.full_like(after, np.nan)
-    masses = [_mass(course, parameters, y) for y in (states, after)]
-    ratio = masses[1] / masses[0]
-    defects = (a * d - b * c) * ratio - course.fmt.number(Fraction(1))
-    products = (np.abs(a * d) + np.abs(b * c)) * np.abs(ratio)
-    return defects.astype(np.float64), products.astype(np.float64)
+    before, later = (_form_at(form, course, parameters, y) for y in (states, after))
+    slopes = entries.reshape(size, size, -1)
+    return symplectic_change(slopes, before, later)
+
+
+def symplectic_change(slopes: np.ndarray, before: np.ndarray, after: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Of (S' W S - W)/|W| the largest entry with its sign, and the sum of the sizes of its products: [lanes] each.
+
+    Args:
+        slopes: S, the derivative of a step in positions and rates: [2 n, 2 n, lanes].
+        before: the symplectic form W at the state, [2 n, 2 n, lanes].
+        after: the same at the state after the step.
+    """
+    size = np.max(np.abs(before), axis=(0, 1))
+    changes = (_congruent(slopes, after) - before) / size
+    flat = changes.reshape(len(slopes) ** 2, -1)
+    largest = np.take_along_axis(flat, np.argmax(np.abs(flat), axis=0)[None], axis=0)[0]
+    products = np.max(_congruent(np.abs(slopes), np.abs(after)), axis=(0, 1)) / size
+    return largest.astype(np.float64), products.astype(np.float64)
+
+
+def canonical_form(count: int, lanes: int, dtype: Any = np.float64) -> np.ndarray:
+    """W of positions and momenta: ((0, 1), (-1, 0)), [2 n, 2 n, lanes]."""
+    form = np.zeros((2 * count, 2 * count, lanes), dtype=dtype)
+    for i in range(count):
+        form[i, count + i], form[count + i, i] = 1, -1
+    return form
+
+
+def _congruent(slopes: np.ndarray, form: np.ndarray) -> np.ndarray:
+    """S' W S, by sums in the format's own numbers."""
+    half = np.sum(form[:, :, None] * slopes[None], axis=1)
+    found: np.ndarray = np.sum(slopes[:, :, None] * half[:, None], axis=0)
+    return found
+
+
+def _form_at(form: Any, course: Course, parameters: np.ndarray, states: np.ndarray) -> np.ndarray:
+    """The symplectic form in positions and rates: P' W P, with P = d(q, p)/d(q, q')."""
+    count = len(course.problem.space.pairs)
+    plain = canonical_form(count, states.shape[1], course.fmt.type)
+    if form is None:
+        return plain
+    entries = form(states, parameters)
+    return _congruent(entries.reshape(2 * count, 2 * count, -1), plain)
 
 
 def _rounded(course: Course, chosen: np.ndarray, component: int) -> np.ndarray:
     """A component of the exact states, rounded to the format."""
     limbs = course.truth[chosen, component].tolist()
     return course.fmt.array(sum(map(Fraction, parts), Fraction(0)) for parts in limbs)
-
-
-def _mass(course: Course, parameters: np.ndarray, y: np.ndarray) -> Any:
-    """M = d2E/dq'2: what the energy's slope by q' gains from q' = 0 to q' = 1."""
-    system, fmt = plain_system(course.problem, course.fmt, parameters), course.fmt
-    still, moving = y.copy(), y.copy()
-    still[1], moving[1] = fmt.number(Fraction(0)), fmt.number(Fraction(1))
-    return system.gradient(tuple(moving))[1] - system.gradient(tuple(still))[1]
 
 
 class WayBack(NamedTuple):
@@ -177,10 +243,16 @@ def _ways_back(runs: Sequence[Run]) -> list[WayBack]:
 
 def _turned(run: Run) -> tuple[Fraction, ...] | None:
     """Where the way back begins: at the end, turned round; None where that means nothing, or the end is no number."""
-    odd, end = run.course.aspect.odd, [exactly(value) for value in run.march.states[-1]]
+    odd, end = _odd(run.course), [exactly(value) for value in run.march.states[-1]]
     if odd is None or any(value is None for value in end):
         return None
     return tuple(-value if i in odd else value for i, value in enumerate(end) if value is not None)
+
+
+def _odd(course: Course) -> list[int] | None:
+    """Where the components stand whose sign changes with that of time."""
+    space = course.problem.space
+    return None if space.odd is None else space.places(space.odd)
 
 
 def _back(course: Course, start: tuple[Fraction, ...]) -> Lane:
@@ -190,7 +262,7 @@ def _back(course: Course, start: tuple[Fraction, ...]) -> Lane:
 
 def _gaps(course: Course, state: np.ndarray) -> np.ndarray:
     """From the start with its velocity turned round, each component over its size; NaN if the way back was lost."""
-    fmt, odd = course.fmt, course.aspect.odd or ()
+    fmt, odd = course.fmt, _odd(course) or []
     starts = [fmt.round(-value if i in odd else value) for i, value in enumerate(course.problem.start)]
     back = [exactly(value) for value in state]
     gaps = [math.nan if value is None else float(value - start) for value, start in zip(back, starts, strict=True)]

@@ -11,7 +11,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from compare.march.aspects import conserves, period_of
 from compare.march.march import march
 from compare.measure.order_fit import fit_order, slope_with_interval, student_95
 from compare.measure.records import Cell, Drift
@@ -19,7 +18,7 @@ from compare.measure.rounding import roundings_of
 from compare.measure.truth import SAMPLES, Course
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Iterator, Sequence
 
     from compare.march.march import March
     from compare.march.precision import Precision
@@ -41,7 +40,7 @@ __all__ = [
 
 
 def score_method(method: Method, courses: Sequence[Course], fmt: Precision) -> tuple[list[Cell], list[Drift]]:
-    """March a method over every course and score it: a Cell a course, and a Drift where something is conserved."""
+    """March a method over every course and score it: a Cell a course, and a Drift an invariant."""
     cells, marches, roundings = score_courses(method, courses, fmt)
     return cells, drifts(method, courses, marches, roundings)
 
@@ -75,12 +74,12 @@ def score_courses(
 def drifts(
     method: Method, courses: Sequence[Course], marches: Sequence[March], roundings: Sequence[Rounding]
 ) -> list[Drift]:
-    """The drift of what is conserved, for each march of a problem that conserves something."""
+    """The drift of each invariant of each march."""
     with np.errstate(over="ignore", invalid="ignore"):
         return [
-            _drift(method, course, result, rounding.drift)
+            drift
             for course, result, rounding in zip(courses, marches, roundings, strict=True)
-            if conserves(course.problem)
+            for drift in _drifts(method, course, result, rounding)
         ]
 
 
@@ -117,14 +116,15 @@ class _Sizes:
     """The errors [samples, state] of a course in sizes, of its place and of its velocity, and rounding's part."""
 
     def __init__(self, course: Course, signed: np.ndarray, rounding: Rounding, *, relative: bool) -> None:
-        errors, aspect = np.abs(signed), course.aspect
+        errors, space = np.abs(signed), course.problem.space
+        places, rates = space.places(space.positions), space.places(space.rates)
         units = course.reach.units if relative else np.ones_like(course.reach.units)
         scaled, rounded = errors / units, rounding.state / units
         self.floor = rounding.floor
-        self.rounding = rounding.place if relative else float(np.max(rounded[list(aspect.places)]))
-        self.velocity_rounding = float(np.max(rounded[list(aspect.rates)], initial=0.0))
-        self.place, self.velocity = _Norms(scaled[:, list(aspect.places)]), _Norms(scaled[:, list(aspect.rates)])
-        self.worst = _Norms((errors / course.reach.sizes)[:, list(aspect.places)]).largest
+        self.rounding = rounding.place if relative else float(np.max(rounded[places]))
+        self.velocity_rounding = float(np.max(rounded[rates], initial=0.0))
+        self.place, self.velocity = _Norms(scaled[:, places]), _Norms(scaled[:, rates])
+        self.worst = _Norms((errors / course.reach.sizes)[:, places]).largest
 
 
 class _Norms:
@@ -158,30 +158,41 @@ def _digits(relative: float, bits: int) -> float:
     return min(max(-math.log10(relative), 0.0), held) if relative else held
 
 
-def _drift(method: Method, course: Course, result: March, rounding: float) -> Drift:
+def _drifts(method: Method, course: Course, result: March, rounding: Rounding) -> Iterator[Drift]:
+    """Of every invariant; the first is told relative to the energy too, where that has a value beside its scale."""
     period, energy = _scales(course.problem)
     cycles = np.array(course.steps) * (float(course.h) / (period if math.isfinite(period) else 1.0))
-    slope, interval = slope_with_interval(cycles, course.drift(result.states))
-    scale = course.level if energy is None else energy
-    return Drift(
-        method=method.name,
-        n=course.n,
-        h=float(course.h),
-        case=course.case,
-        max_drift_above_rest=_ratio(result.max_drift, course.level),
-        max_drift_relative=_ratio(result.max_drift, scale),
-        slope_per_period=slope,
-        slope_interval=interval,
-        rounding=rounding,
-        slope_rounding=2 * rounding / float(cycles[-1]),
-        relative_rounding=_ratio(rounding * course.level, scale),
+    told = zip(
+        course.problem.invariants,
+        course.scales,
+        result.max_drifts,
+        course.drifts(result.states),
+        map(float, rounding.drifts),
+        strict=True,
     )
+    for place, (invariant, scale, largest, drift, bound) in enumerate(told):
+        slope, interval = slope_with_interval(cycles, drift)
+        other = scale if energy is None or place else energy
+        yield Drift(
+            method=method.name,
+            n=course.n,
+            h=float(course.h),
+            case=course.case,
+            invariant=invariant.name,
+            max_drift_above_rest=_ratio(largest, scale),
+            max_drift_relative=_ratio(largest, other),
+            slope_per_period=slope,
+            slope_interval=interval,
+            rounding=bound,
+            slope_rounding=2 * bound / float(cycles[-1]),
+            relative_rounding=_ratio(bound * scale, other),
+        )
 
 
 @lru_cache(maxsize=256)
 def _scales(problem: Problem) -> tuple[float, float | None]:
     """The period, and the absolute value of the energy where the problem has one besides its invariant."""
-    return period_of(problem), abs(float(problem.certified("energy"))) if problem.serves("energy") else None
+    return problem.cycle(), abs(float(problem.certified("energy"))) if problem.serves("energy") else None
 
 
 def _ratio(drift: float, scale: float) -> float:

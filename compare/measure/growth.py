@@ -14,11 +14,11 @@ on, so that the longest run of last windows is taken whose slope has the least i
 from __future__ import annotations
 
 import math
+from functools import partial
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from compare.march.aspects import conserves, period_of
 from compare.march.march import march
 from compare.measure.order_fit import slope_with_interval, student_95
 from compare.measure.records import FLOOR_FACTOR, Growth
@@ -125,13 +125,13 @@ def growths(runs: Sequence[Run]) -> list[Growth]:
 
     Along a curve there is no time to grow in.
     """
-    return [found for run in runs if run.course.aspect.along is None for found in _of(run)]
+    return [found for run in runs if run.course.problem.space.along is None for found in _of(run)]
 
 
 def _of(run: Run) -> Iterator[Growth]:
     course = run.course
     times = np.array([float(time) for time in course.times])
-    period = period_of(course.problem)
+    period = course.problem.cycle()
     shortest = LEAST_PERIODS * period if math.isfinite(period) else 0.0
     told, several = enough(times, shortest), [run]
     for name, errors, bound in _quantities(run):
@@ -163,8 +163,13 @@ def _quantities(run: Run) -> Iterator[tuple[str, Callable[[Run], np.ndarray], fl
     yield "place", lambda one: one.place, run.rounding.place
     if run.orbital_known:
         yield "phase", lambda one: one.orbital[:, 0], run.phase_rounding
-    if conserves(run.course.problem):
-        yield "energy", lambda one: one.drift, run.rounding.drift
+    for i, invariant in enumerate(run.course.problem.invariants):
+        yield invariant.name, partial(_drift_of, invariant=i), float(run.rounding.drifts[i])
+
+
+def _drift_of(run: Run, invariant: int) -> np.ndarray:
+    drift: np.ndarray = run.drifts[invariant]
+    return drift
 
 
 def _starts(run: Run) -> list[Run]:

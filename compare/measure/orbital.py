@@ -15,9 +15,9 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 from flint import arb
 
+from compare.march.equation import NO_TIME
 from reference.arithmetic.namespaces import BALL
 from reference.arithmetic.precision import ctx
-from reference.problems.orbits import orbits
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -71,7 +71,7 @@ def _hashable(states: np.ndarray) -> tuple[tuple[tuple[float, ...], ...], ...]:
 def _reach(problem: Problem, states: Sequence[Sequence[Sequence[float]]], end: Fraction) -> OrbitalReach:
     """Kept: the methods and the numbers of steps of a study come back to the same."""
     with ctx.workprec(BITS + problem.working_bits([end])):
-        known = orbits(problem)
+        known = problem.orbits()
         if known is None:
             return OrbitalReach(math.nan, math.nan)
         motion = _Neighbours(problem, known)
@@ -114,7 +114,7 @@ class _Neighbours:
 
     def _frequency(self, y: Sequence[arb]) -> arb:
         """By how much the phase moves on in a unit of time, in turns, along the motion through a state."""
-        rates = self._problem.derivative(BALL, y, self._parameters)
+        rates = self._problem.derivative(BALL, NO_TIME, y, self._parameters)
         later = [value + self._apart * rate for value, rate in zip(y, rates, strict=True)]
         return _turned(self._orbits.place(y), self._orbits.place(later)) / self._apart
 

@@ -15,7 +15,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 from flint import arb
 
-from compare.march.aspects import period_of
 from compare.march.lanes import Lane
 from compare.march.march import march
 from compare.measure.orbital import early_reach
@@ -23,7 +22,6 @@ from compare.measure.records import OwnPeriod
 from compare.measure.result import SPARE_BITS, as_balls
 from reference.arithmetic.namespaces import BALL
 from reference.arithmetic.precision import ctx
-from reference.problems.orbits import orbits
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -47,7 +45,7 @@ def own_periods(runs: Sequence[Run]) -> list[OwnPeriod]:
     The passages are looked for where the exact motion has them; and where a method of a low order has none there, once
     more where its phase at those steps says.
     """
-    able = [run for run in runs if run.orbital_known and math.isfinite(period_of(run.course.problem))]
+    able = [run for run in runs if run.orbital_known and math.isfinite(run.course.problem.cycle())]
     found = _looked_for(able, [_middles(run.course) for run in able])
     again = {i: moved for i, (_, moved) in enumerate(found) if moved is not None}
     late = iter(_looked_for([able[i] for i in again], list(again.values())))
@@ -67,9 +65,9 @@ def _looked_for(runs: Sequence[Run], middles: Sequence[Middles]) -> list[tuple[O
 
 def _middles(course: Course) -> Middles:
     """The steps of the exact motion's first two passages."""
-    turns = period_of(course.problem) / float(course.h)
+    turns = course.problem.cycle() / float(course.h)
     with ctx.workprec(SPARE_BITS):
-        known = orbits(course.problem)
+        known = course.problem.orbits()
         phase = None if known is None else known.truth(Fraction(0)).phase
     since = 0.0 if phase is None else float(phase) % 1.0
     return int((1 - since) * turns), int((2 - since) * turns)
@@ -85,7 +83,7 @@ def _record(run: Run, lane: Lane, middles: Middles, states: np.ndarray) -> tuple
     course, moved = run.course, None
     period = error = math.nan
     with ctx.workprec(course.fmt.bits + SPARE_BITS + course.problem.working_bits([lane.n * lane.h])):
-        known = orbits(course.problem)
+        known = course.problem.orbits()
         if known is not None:
             phases = [known.place(state).phase if state else None for state in map(as_balls, states)]
             passages = list(_passages(lane, phases))[:2]
@@ -94,7 +92,7 @@ def _record(run: Run, lane: Lane, middles: Middles, states: np.ndarray) -> tuple
                 period, error = float(own), float(own * _frequency(known) - 1)
             else:
                 moved = _moved(
-                    dict(zip(lane.samples, phases, strict=True)), middles, period_of(course.problem) / float(lane.h)
+                    dict(zip(lane.samples, phases, strict=True)), middles, course.problem.cycle() / float(lane.h)
                 )
     return OwnPeriod(run.method.name, course.n, float(course.h), course.case, period, error, _rounding(run)), moved
 
@@ -113,7 +111,7 @@ def _moved(phases: dict[int, arb | None], middles: Middles, turn: float) -> Midd
 
 def _rounding(run: Run) -> float:
     """A bound on rounding's part of period/exact: that of the phase by then; roundings add up as the root of time."""
-    course, end = run.course, 2 * period_of(run.course.problem)
+    course, end = run.course, 2 * run.course.problem.cycle()
     part = min(end / float(course.t_end), 1.0)
     led = early_reach(course.problem, Fraction(end)).phase
     return (run.rounding.steps * math.sqrt(part) * led / (2 * math.pi) + 4) * course.fmt.epsilon

@@ -6,7 +6,12 @@ A problem of a study in a few words, as its records carry it.
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import Any
+from typing import TYPE_CHECKING, Any
+
+from reference.declaration import ENERGY_ABOVE_REST
+
+if TYPE_CHECKING:
+    from reference.declaration import Invariant
 
 __all__ = [
     "FLOOR_FACTOR",
@@ -35,10 +40,12 @@ class Case:
         unit: its unit; "" where it is relative to the largest value of the place.
         samples: what the states are compared at: "times" or "points".
         step: the unit of the step size; "" for a number.
-        drift: what the conserved quantity is called and its change, or None where there is none.
-        energy: whether it is an energy that has a value of its own beside that above rest.
+        invariants: what is conserved.
+        energy: whether the first is an energy that has a value of its own beside that above rest.
         cycle: what the slope of the drift is per: "period", or a unit of time where there is none.
         axes: what the axes of a phase portrait are called; () where there is no velocity.
+        pair: where the first position and its rate stand in the state; () where there is no velocity.
+        lacks: the scores that need what the problem has not, and why.
     """
 
     problem: str
@@ -48,10 +55,12 @@ class Case:
     unit: str = "rad"
     samples: str = "times"
     step: str = "s"
-    drift: tuple[str, str] | None = ("Energy", "(E - E0)/(E0 - Emin)")
+    invariants: tuple[Invariant, ...] = (ENERGY_ABOVE_REST,)
     energy: bool = True
     cycle: str = "period"
     axes: tuple[str, ...] = ("angle θ [rad]", "angular velocity ω [rad/s]")
+    pair: tuple[int, ...] = (0, 1)
+    lacks: tuple[tuple[str, str], ...] = ()
 
 
 class OfCase:
@@ -149,10 +158,11 @@ class FittedOrder(OfCase):
 
 @dataclass(frozen=True)
 class Drift(OfCase):
-    """The drift of the energy, or of another invariant, of one method at one number of steps.
+    """The drift of one invariant, such as the energy, of one method at one number of steps.
 
     Attributes:
-        max_drift_above_rest: max over every step of |E - E0| / (E0 - Emin).
+        invariant: its name.
+        max_drift_above_rest: max over every step of |E - E0| over the invariant's scale: for an energy E0 - Emin.
         max_drift_relative: max over every step of |E - E0| / |E0|.
         slope_per_period: least-squares slope of (E - E0)/(E0 - Emin) over the sample times, per period, or per unit of
             time where the motion has no period: the case says which.
@@ -166,6 +176,7 @@ class Drift(OfCase):
     n: int
     h: float
     case: Case
+    invariant: str
     max_drift_above_rest: float
     max_drift_relative: float
     slope_per_period: float
@@ -207,7 +218,7 @@ class Growth(OfCase):
     """How one error of one method at one number of steps grows: as t to the power of the exponent.
 
     Attributes:
-        quantity: "place", "phase" or "energy".
+        quantity: "place", "phase" or the name of an invariant, such as "energy".
         exponent: of t; NaN where the march has too few periods or an error is not a number.
         interval: half-width of its 95 % interval.
         law: "bounded", "sqrt t", "t", "t^3/2" or "t^2"; "" where none is clear.
@@ -255,8 +266,9 @@ class Defect(OfCase):
     """What one method at one step size keeps of the geometry of the exact motion.
 
     Attributes:
-        symplecticity: largest |det d(y_{n+1})/d(y_n) - 1| in position and momentum, at states of the exact motion; NaN
-            for a method that carries more than the state from step to step, or a problem without momenta.
+        symplecticity: how far a step is from keeping the symplectic form, at states of the exact motion: with one
+            degree of freedom |det d(y_{n+1})/d(y_n) - 1| in position and momentum; NaN for a method that carries more
+            than the state from step to step, or a problem without momenta.
         reversibility: the distance from the start after n steps forward, the velocity turned round, and n steps back,
             each component over its largest value.
         symplecticity_rounding, reversibility_rounding: bounds on rounding's part of each.
@@ -279,7 +291,7 @@ class Trace(OfCase):
     Attributes:
         time: sample times in s, or in the case's own unit.
         states: [S, state].
-        drift: (E - E0)/(E0 - Emin); NaN where nothing is conserved.
+        drifts: the drift of each invariant over its scale: [invariants, S].
     """
 
     method: str
@@ -287,7 +299,7 @@ class Trace(OfCase):
     case: Case
     time: Any
     states: Any
-    drift: Any
+    drifts: Any
 
 
 @dataclass(frozen=True)

@@ -16,7 +16,6 @@ from reference.arithmetic.namespaces import BALL
 from reference.arithmetic.precision import ctx
 from reference.once import cached_property
 from reference.orbits import NOWHERE, apart
-from reference.problems.orbits import orbits
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -54,10 +53,10 @@ class Run:
             return self.course.place(self.course.errors(self.march.states))
 
     @cached_property
-    def drift(self) -> np.ndarray:
-        """(E - E0)/(E0 - Emin) at each sample."""
+    def drifts(self) -> np.ndarray:
+        """The drift of each invariant over its scale at each sample: [invariants, samples]."""
         with np.errstate(over="ignore", invalid="ignore"):
-            return self.course.drift(self.march.states)
+            return self.course.drifts(self.march.states)
 
     @property
     def lost(self) -> bool:
@@ -87,14 +86,14 @@ class Run:
     def orbital_known(self) -> bool:
         """Whether the exact motion has a phase or an amplitude."""
         with ctx.workprec(SPARE_BITS):
-            return orbits(self.course.problem) is not None
+            return self.course.problem.orbits() is not None
 
     @cached_property
     def orbital(self) -> np.ndarray:
         """The errors of phase, followed over whole turns, and of amplitude at each sample: [samples, 2]."""
         course = self.course
         with ctx.workprec(_bits(course)):
-            known = orbits(course.problem)
+            known = course.problem.orbits()
             if known is None:
                 return np.full((len(course.times), 2), math.nan)
             here = _places(course, known, self.march.states)

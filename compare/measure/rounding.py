@@ -18,7 +18,6 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from compare.march.aspects import conserves
 from compare.march.march import march
 from compare.measure.records import FLOOR_FACTOR
 from compare.methods.kinds.compensated import Compensated
@@ -56,14 +55,14 @@ class Rounding:
     Attributes:
         place: of the error of the place, in the unit of ``Course.place``.
         state: of the error of each component, as it is.
-        drift: of the change of the conserved quantity, relative to its start; NaN where nothing is conserved.
+        drifts: of the change of each invariant, over its scale.
         floor: whether the error of the place is rounding.
         steps: to how many roundings, each of one part in a unit and led as far as any is, all of them add up.
     """
 
     place: float
     state: np.ndarray
-    drift: float
+    drifts: np.ndarray
     floor: bool
     steps: float
 
@@ -96,8 +95,8 @@ def roundings_of(
     return [
         Rounding(
             place=float(row[0]),
-            state=row[2:],
-            drift=float(row[1]) if conserves(course.problem) else math.nan,
+            state=row[1 + len(course.scales) :],
+            drifts=row[1 : 1 + len(course.scales)],
             floor=floors[i],
             steps=factors[i] * steps[i],
         )
@@ -117,14 +116,14 @@ def _steps(method: Method, course: Course) -> float:
 
 
 def _bounds(course: Course, steps: float, errors: np.ndarray) -> np.ndarray:
-    """A row of bounds, on the place, the drift and the components.
+    """A row of bounds, on the position, the drifts and the components.
 
     Along a curve the same step is added again and again: the coordinate's error is known, and so is what it makes.
     """
     along = course.carried(errors)
-    drift = steps * course.reach.drift_led + ENERGY_ROUNDINGS * course.fmt.epsilon
+    drifts = steps * course.reach.drift_led + ENERGY_ROUNDINGS * course.fmt.epsilon
     return np.array(
-        [steps * course.reach.place_led + along, drift, *(steps * course.reach.led + along * course.reach.units)]
+        [steps * course.reach.place_led + along, *drifts, *(steps * course.reach.led + along * course.reach.units)]
     )
 
 
@@ -138,14 +137,14 @@ def _probes(own: Sequence[int], courses: Sequence[Course], sizes: Sequence[float
 
 def _told(course: Course, result: March, errors: np.ndarray, neighbour: Course, other: March) -> np.ndarray:
     """What tells a march from its neighbour's, less what the distance of their starts makes of the truncation error."""
-    drift = course.drift(result.states)[:, None]
-    gap, drifts = (
-        _known(errors - neighbour.errors(other.states)),
-        _known(drift - neighbour.drift(other.states)[:, None]),
+    drifts, others = course.drifts(result.states), neighbour.drifts(other.states)
+    row, largest = (
+        np.array([np.max(course.place(gap)), *np.max(drift, axis=1, initial=0.0), *np.max(gap, axis=0)])
+        for gap, drift in (
+            (_known(errors - neighbour.errors(other.states)), _known(drifts - others)),
+            (_known(errors), _known(drifts)),
+        )
     )
-    row = np.array([np.max(course.place(gap)), np.max(drifts), *np.max(gap, axis=0)])
-    errors, drift = _known(errors), _known(drift)
-    largest = np.array([np.max(course.place(errors)), np.max(drift), *np.max(errors, axis=0)])
     told: np.ndarray = row - SENSITIVE * course.reach.apart * largest
     return told
 

@@ -9,9 +9,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from compare.march.aspects import Aspect, aspect_of, conserves
 from compare.march.equation import FormatArithmetic
-from compare.march.lanes import Lane, sample_steps, start_level
+from compare.march.lanes import Lane, drift_scales, sample_steps, start_levels
 from compare.measure.cases import case_of
 from compare.measure.conditioning import Reach, reach
 from reference.once import cached_property
@@ -88,19 +87,15 @@ class Course:
         """The problem in a few words."""
         return case_of(self.problem)
 
-    @property
-    def aspect(self) -> Aspect:
-        """How the state is read."""
-        return aspect_of(self.problem)
-
     @cached_property
     def reach(self) -> Reach:
         """How large the motion is, and how far it carries roundings: the same object on the same grid of times."""
         return _reach_on(self.problem, *self.grid, self.fmt)
 
     def place(self, errors: np.ndarray) -> np.ndarray:
-        """The error of the place at each sample, of errors [samples, state]: of several components the largest."""
-        largest: np.ndarray = np.max((np.abs(errors) / self.reach.units)[:, list(self.aspect.places)], axis=1)
+        """The position error at each sample, of errors [samples, state]: of several components the largest."""
+        space = self.problem.space
+        largest: np.ndarray = np.max((np.abs(errors) / self.reach.units)[:, space.places(space.positions)], axis=1)
         return largest
 
     def carried(self, errors: np.ndarray) -> float:
@@ -108,9 +103,10 @@ class Course:
 
         They are of rounding alone, and the same in a neighbour.  A step that takes a slope there takes another one.
         """
-        along = self.aspect.along
-        if along is None:
+        space = self.problem.space
+        if space.along is None:
             return 0.0
+        (along,) = space.places([space.along])
         return float(np.max((self.reach.slopes + float(self.h) * self.reach.bends) * np.abs(errors[:, along])))
 
     @property
@@ -123,22 +119,24 @@ class Course:
         return self.fmt.difference(states, self.truth)
 
     @cached_property
-    def level(self) -> float:
-        """The invariant at the start."""
-        return float(start_level(self.problem, self.fmt))
+    def scales(self) -> tuple[float, ...]:
+        """What the drift of each invariant is divided by."""
+        return tuple(map(float, drift_scales(self.problem, self.fmt)))
 
-    def drift(self, states: np.ndarray) -> np.ndarray:
-        """(E - E0)/(E0 - Emin) of states [samples, state], computed in the format, as float64.
+    def drifts(self, states: np.ndarray) -> np.ndarray:
+        """The drift of each invariant over its scale, of states [samples, state]: float64 [invariants, samples].
 
-        Not a number where nothing is conserved, or where E0 - Emin is below the range of the format.
+        Computed in the format; not a number where the scale is below the format's range.
         """
-        problem, start = self.problem, start_level(self.problem, self.fmt)
-        if not conserves(problem) or not start:
-            return np.full(len(states), np.nan)
+        problem = self.problem
         parameters = {name: self.fmt.number(value) for name, value in problem.parameters.items()}
-        energies = problem.invariant(FormatArithmetic(self.fmt), tuple(np.moveaxis(states, 1, 0)), parameters)
-        drift: np.ndarray = ((energies - start) / start).astype(np.float64)
-        return drift
+        m, y = FormatArithmetic(self.fmt), tuple(np.moveaxis(states, 1, 0))
+        found = np.full((len(problem.invariants), len(states)), np.nan)
+        levels, scales = start_levels(problem, self.fmt), drift_scales(problem, self.fmt)
+        for i, (one, level, scale) in enumerate(zip(problem.invariants, levels, scales, strict=True)):
+            if scale:
+                found[i] = ((getattr(problem, one.value)(m, y, parameters) - level) / scale).astype(np.float64)
+        return found
 
 
 @lru_cache(maxsize=64)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import re
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -41,14 +42,17 @@ def figures(study: Study) -> Iterator[tuple[str, Figure]]:
     for case in study.cases:
         told = "-".join(f"{name}-{value}" for name, value in case.inputs)
         suffix = f"-{_SPECIAL.sub('-', told)}" if len(study.cases) > 1 else ""
-        for name, draw in FIGURES.items():
-            if _shows(case, name):
-                yield f"{study.problem}-{name}{suffix}", draw(study, case)
+        for name, draw in _drawn(case):
+            yield f"{study.problem}-{name}{suffix}", draw(study, case)
 
 
-def _shows(case: Case, name: str) -> bool:
-    """Whether the case has what the figure shows: something conserved, or a velocity."""
-    return {"energy-drift": case.drift is not None, "phase-portrait": bool(case.axes)}.get(name, True)
+def _drawn(case: Case) -> Iterator[tuple[str, Callable[[Study, Case], Figure]]]:
+    """The figures that show what the case has: a drift an invariant, a phase portrait where there is a velocity."""
+    yield from FIGURES.items()
+    for place, invariant in enumerate(case.invariants):
+        yield f"{_SPECIAL.sub('-', invariant.name)}-drift", partial(drift_figure, place=place)
+    if case.axes:
+        yield "phase-portrait", phase_figure
 
 
 def error_figure(study: Study, case: Case) -> Figure:
@@ -70,16 +74,16 @@ def work_figure(study: Study, case: Case) -> Figure:
     return figure
 
 
-def drift_figure(study: Study, case: Case) -> Figure:
-    """|Energy drift| over time, a panel a method on one logarithmic scale, with its running maximum."""
+def drift_figure(study: Study, case: Case, place: int = 0) -> Figure:
+    """|Drift| of one invariant over time, a panel a method on one logarithmic scale, with its running maximum."""
     traces = _traces(study, case)
-    name, change = case.drift or ("", "")
+    name, change = case.invariants[place].drift
     figure, panels = _panel_figure(traces, f"{name} drift over time", case)
     ink = _ink(study)
-    finite = [abs(d) for trace in traces for d in trace.drift if math.isfinite(d) and d]
+    finite = [abs(d) for trace in traces for d in trace.drifts[place] if math.isfinite(d) and d]
     low = max(min(finite, default=1.0), _FAINTEST_DRIFT)
     for trace, axes in zip(traces, panels, strict=True):
-        size = np.abs(np.asarray(trace.drift, dtype=float))
+        size = np.abs(np.asarray(trace.drifts[place], dtype=float))
         size[~np.isfinite(size) | (size < low)] = np.nan
         axes.plot(trace.time, size, color=ink[trace.method].colour, linewidth=0.8, alpha=0.6)
         axes.plot(trace.time, np.fmax.accumulate(size), color=ink[trace.method].colour, linewidth=2)
@@ -96,11 +100,12 @@ def phase_figure(study: Study, case: Case) -> Figure:
     figure, panels = _panel_figure(traces, "Phase portrait", case)
     ink = _ink(study)
     exact = next(orbit for orbit in study.exact if orbit.case == case).states
+    q, v = case.pair
     for trace, axes in zip(traces, panels, strict=True):
-        axes.plot(exact[:, 0], exact[:, 1], color="#C8C8C8", linewidth=5, solid_capstyle="round")
-        axes.plot(trace.states[:, 0], trace.states[:, 1], color=ink[trace.method].colour, linewidth=1.1)
-        axes.set_xlim(_framed(exact[:, 0]))
-        axes.set_ylim(_framed(exact[:, 1]))
+        axes.plot(exact[:, q], exact[:, v], color="#C8C8C8", linewidth=5, solid_capstyle="round")
+        axes.plot(trace.states[:, q], trace.states[:, v], color=ink[trace.method].colour, linewidth=1.1)
+        axes.set_xlim(_framed(exact[:, q]))
+        axes.set_ylim(_framed(exact[:, v]))
         axes.grid(visible=True)
     figure.supxlabel(f"{case.axes[0]};  thick grey: exact orbit")
     figure.supylabel(case.axes[1])
@@ -120,9 +125,8 @@ def _error_label(case: Case) -> str:
 FIGURES: dict[str, Callable[[Study, Case], Figure]] = {
     "error-vs-n": error_figure,
     "work-precision": work_figure,
-    "energy-drift": drift_figure,
-    "phase-portrait": phase_figure,
 }
+"""The figures of every case; ``_drawn`` adds those that show what not every case has."""
 
 
 def _ink(study: Study) -> dict[str, Ink]:

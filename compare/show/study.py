@@ -34,10 +34,10 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
 
     from compare.measure.records import Case, Cell, Drift, FittedOrder, Growth, Phase, Study
+    from reference.declaration import Invariant
 
 __all__ = ["FORMATS", "TABLES", "files", "render", "sections"]
 
-QUANTITIES = ("place", "phase", "energy")
 _GROWTH_NOTE = (
     "exponent of t ± its 95 % interval; no law where none is clear\n"
     "* means that the error is rounding: the mean of marches from several starts"
@@ -110,7 +110,7 @@ def _growth(study: Study, case: Case, declared: dict[str, int], width: int) -> I
             name=f"growth-{text_table.slug(case.label)}", title=f"Growth, {case.label}: {_no_law(case)}", grids=()
         )
         return
-    for quantity in QUANTITIES:
+    for quantity in dict.fromkeys(growth.quantity for growth in found):
         records = [growth for growth in found if growth.quantity == quantity]
         if records:
             found_grid = of_steps(records, declared, width, ["law", "exponent"], _growth_cells)
@@ -119,7 +119,7 @@ def _growth(study: Study, case: Case, declared: dict[str, int], width: int) -> I
             notes = _GROWTH_NOTE, NOTES[DOUBT] if doubt else "", _GROWTH_NAN if nan else ""
             yield Section(
                 name=f"growth-{quantity}-{text_table.slug(case.label)}",
-                title=f"Growth, {case.label}: law of the {_WORDS[quantity]} over time",
+                title=f"Growth, {case.label}: law of the {_WORDS.get(quantity, f'change of the {quantity}')} over time",
                 grids=(found_grid,),
                 note="\n".join(filter(None, notes)),
             )
@@ -204,7 +204,11 @@ def sections(study: Study, width: int = 100) -> Iterator[Section]:
     """The readable tables, case by case, with columns grouped by declared order to fit the width."""
     declared = {fit.method: fit.declared_order for fit in study.order}
     for case in study.cases:
+        lacks = dict(case.lacks)
         for score in study.scores:
+            if score in lacks:
+                name, title = f"{score}-{text_table.slug(case.label)}", f"{score.capitalize()}, {case.label}"
+                yield Section(name=name, title=f"{title}: {lacks[score]}", grids=())
             yield from _SECTIONS[score](study, case, declared, width)
 
 
@@ -220,10 +224,11 @@ def _error(study: Study, case: Case, declared: dict[str, int], width: int) -> It
 
 def _drift(study: Study, case: Case, declared: dict[str, int], width: int) -> Iterator[Section]:
     """The drift of what is conserved, and its trend."""
-    drifts = [drift for drift in study.energy_drift if drift.case == case]
-    if drifts:
-        yield from _drift_section(drifts, declared, width)
-        yield _slope_section(drifts, declared, width)
+    for invariant in case.invariants:
+        drifts = [drift for drift in study.energy_drift if (drift.case, drift.invariant) == (case, invariant.name)]
+        if drifts:
+            yield from _drift_section(drifts, invariant, declared, width)
+            yield _slope_section(drifts, invariant, declared, width)
 
 
 def _error_section(cells: Sequence[Cell], declared: dict[str, int], width: int) -> Section:
@@ -275,31 +280,32 @@ def _order_section(fits: Sequence[FittedOrder]) -> Section:
     )
 
 
-def _drift_section(drifts: Sequence[Drift], declared: dict[str, int], width: int) -> Iterator[Section]:
-    case = drifts[0].case
-    name, change = case.drift or ("", "")
+def _drift_section(
+    drifts: Sequence[Drift], invariant: Invariant, declared: dict[str, int], width: int
+) -> Iterator[Section]:
+    case, (name, change) = drifts[0].case, invariant.drift
     size = f"|{change.partition('/')[0].strip('()')}|/{change.partition('/')[2]}"
     title = f"{name} drift, {case.label}: max {size} over every step"
     numbers = attrgetter("max_drift_above_rest", "rounding")
-    yield from plain(drifts, "energy-drift", title, numbers, (declared, width))
+    yield from plain(drifts, f"{text_table.slug(invariant.name)}-drift", title, numbers, (declared, width))
 
 
-def _slope_section(drifts: Sequence[Drift], declared: dict[str, int], width: int) -> Section:
-    case = drifts[0].case
-    name, change = case.drift or ("", "")
+def _slope_section(drifts: Sequence[Drift], invariant: Invariant, declared: dict[str, int], width: int) -> Section:
+    case, (name, change) = drifts[0].case, invariant.drift
+    energy = case.energy and invariant == case.invariants[0]
     slope = f"slope of {change} per {case.cycle}, 95 % interval"
 
     def cells(drift: Drift) -> tuple[str, ...]:
         slope = starred(drift.slope_per_period, drift.slope_rounding)
         told = math.isfinite(drift.slope_interval) and not is_rounding(drift.slope_per_period, drift.slope_rounding)
         trend = f"{slope} ± {digits(drift.slope_interval, '.0e')}" if told else slope.replace("nan", "-")
-        return (starred(drift.max_drift_relative, drift.relative_rounding), trend) if case.energy else (trend,)
+        return (starred(drift.max_drift_relative, drift.relative_rounding), trend) if energy else (trend,)
 
-    labels = [*(["relative"] if case.energy else []), f"slope per {case.cycle}"]
+    labels = [*(["relative"] if energy else []), f"slope per {case.cycle}"]
     grids = (of_steps(drifts, declared, width, labels, cells),)
     return Section(
-        name=f"energy-slope-{text_table.slug(case.label)}",
-        title=f"{name} trend, {case.label}: {'max |E - E0|/|E0|, and ' if case.energy else ''}{slope}",
+        name=f"{text_table.slug(invariant.name)}-slope-{text_table.slug(case.label)}",
+        title=f"{name} trend, {case.label}: {'max |E - E0|/|E0|, and ' if energy else ''}{slope}",
         grids=grids,
         note=legend(grids),
     )

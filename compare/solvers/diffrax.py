@@ -42,10 +42,10 @@ def _field(problem: Problem, tally: list[int] | None) -> Callable[[Any, Any, Any
         if tally is not None:
             tally[0] += 1
 
-    def field(_t: Any, y: Any, _args: Any) -> Any:
+    def field(t: Any, y: Any, _args: Any) -> Any:
         if tally is not None:
             jax.debug.callback(count)
-        return jnp.stack(problem.derivative(m, y, parameters))
+        return jnp.stack(problem.derivative(m, t, y, parameters))
 
     return field
 

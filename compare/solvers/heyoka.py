@@ -18,7 +18,7 @@ def _equations(question: Question) -> tuple[tuple[Any, ...], list[tuple[Any, Any
     """The state's symbols, and the equations of motion as heyoka takes them."""
     names = question.problem.state_names
     state = tuple(hy.expression(name) for name in names)
-    rates = question.problem.derivative(Heyoka(), state, question.parameters)
+    rates = question.problem.derivative(Heyoka(), hy.time, state, question.parameters)
     return state, [(symbol, hy.expression(rate)) for symbol, rate in zip(state, rates, strict=True)]
 
 

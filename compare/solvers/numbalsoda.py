@@ -74,6 +74,8 @@ def _called(name: str) -> Callable[[Any], Term]:
 class Source:
     """The arithmetic whose numbers are pieces of source that use the module ``math``."""
 
+    time = Term("t")
+
     sin = staticmethod(_called("sin"))
     cos = staticmethod(_called("cos"))
     tan = staticmethod(_called("tan"))
@@ -113,7 +115,7 @@ def _source(question: Question) -> tuple[str, str]:
     names = list(question.problem.parameters)
     parameters = {name: Term(f"data[{place}]") for place, name in enumerate(names, start=1)}
     state = [Term(f"u[{i}]") for i in range(len(question.start))]
-    rates = question.problem.derivative(SOURCE, state, parameters)
+    rates = question.problem.derivative(SOURCE, SOURCE.time, state, parameters)
     lines = [f"out[{i}] = {rate}" for i, rate in enumerate(rates)]
     event = f"out[0] = {question.happens(SOURCE, state)}" if question.event else "pass"
     return "\n    ".join(["data[0] += 1.0", *lines]), event

@@ -20,7 +20,7 @@ AXES = ("x", "y", "z")
 def _solves(question: Question) -> bool:
     """Whether q' = p, in at most three dimensions: a particle has no other kinematics."""
     momenta = np.arange(1.0, 1.0 + question.positions)
-    return 0 < question.positions <= len(AXES) and np.array_equal(Counted(question).velocity(momenta), momenta)
+    return 0 < question.positions <= len(AXES) and np.array_equal(Counted(question).velocity(0.0, momenta), momenta)
 
 
 def _prepare(question: Question, mode: str | None = None) -> Callable[[], Answer]:
@@ -43,7 +43,7 @@ def _prepare(question: Question, mode: str | None = None) -> Callable[[], Answer
         def push(pointer: Any) -> None:
             particle = pointer.contents.particles[0]
             try:
-                force = counted.force(tuple(getattr(particle, axis) for axis in axes))
+                force = counted.force(pointer.contents.t, tuple(getattr(particle, axis) for axis in axes))
             except SolverError as error:  # an exception would be lost on its way through compiled code
                 refused.append(error)
                 pointer.contents.stop()

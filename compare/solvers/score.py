@@ -22,7 +22,6 @@ from typing import TYPE_CHECKING, Generic, NamedTuple, TypeVar
 
 import numpy as np
 
-from compare.march.aspects import aspect_of
 from compare.march.precision import precision
 from compare.solvers.catalogue import select
 from compare.solvers.events import exact_events
@@ -200,8 +199,8 @@ def score_solver(solver: Solver, questions: Sequence[Question]) -> list[SolverCe
 def _cell(solver: Solver, question: Question, found: Heard[Answer], seconds: float) -> SolverCell:
     answer = found.value
     errors = np.full((1, len(question.start)), np.nan) if answer is None else _errors(question, answer.states)
-    aspect = aspect_of(question.problem)
-    place, velocity = errors[:, list(aspect.places)].max(axis=1), errors[:, list(aspect.rates)]
+    space = question.problem.space
+    place, velocity = errors[:, space.places(space.positions)].max(axis=1), errors[:, space.places(space.rates)]
     return SolverCell(
         solver=solver.name,
         rtol=question.rtol,

@@ -50,19 +50,19 @@ class Counted:
         if self.evaluations > self._limit:
             raise StoppedError(f"stopped after {self._limit} evaluations of the right-hand side")
 
-    def derivative(self, _t: float, y: Any) -> Any:
+    def derivative(self, t: float, y: Any) -> Any:
         """dy/dt."""
         self.count()
-        return self._problem.derivative(NUMPY, y, self._parameters)
+        return self._problem.derivative(NUMPY, t, y, self._parameters)
 
-    def velocity(self, momenta: Any) -> Any:
+    def velocity(self, t: float, momenta: Any) -> Any:
         """dq/dt of a separable problem, which costs nothing beside the force and is not counted."""
-        return np.asarray(self._problem.velocity(NUMPY, momenta, self._parameters))
+        return np.asarray(self._problem.velocity(NUMPY, t, momenta, self._parameters))
 
-    def force(self, positions: Any) -> Any:
+    def force(self, t: float, positions: Any) -> Any:
         """dp/dt of a separable problem."""
         self.count()
-        return np.asarray(self._problem.force(NUMPY, positions, self._parameters))
+        return np.asarray(self._problem.force(NUMPY, t, positions, self._parameters))
 
 
 @dataclass(frozen=True)
@@ -101,7 +101,7 @@ class Question:
     @property
     def positions(self) -> int:
         """How many components of the state are positions, 0 where the problem is not separable."""
-        return getattr(self.problem, "positions", 0)
+        return self.problem.positions
 
     def happens(self, m: Any, y: Any) -> Any:
         """The event function at a state, in an arithmetic.

@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from compare.march.aspects import conserves
 from compare.march.march import INLINE_SINE, march
 from compare.measure.records import Study, Trace
 from compare.measure.truth import Course
@@ -136,14 +135,14 @@ def _traces(scored: Scored) -> tuple[tuple[Trace, ...], tuple[Trace, ...]]:
 def _trace(name: str, course: Course, states: np.ndarray) -> Trace:
     """A trajectory with its start put before it."""
     start = [float(value) for value in course.problem.start]
-    drift = course.drift(states) if conserves(course.problem) else np.full(len(states), np.nan)
+    drifts = course.drifts(states)
     return Trace(
         method=name,
         n=course.n,
         case=course.case,
         time=np.array([0.0, *(float(time) for time in course.times)]),
         states=np.vstack([start, states.astype(np.float64)]),
-        drift=np.concatenate([[0.0], drift]),
+        drifts=np.hstack([np.zeros((len(drifts), 1)), drifts]),
     )
 
 

@@ -3,16 +3,21 @@
 from __future__ import annotations
 
 from contextlib import contextmanager
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import heyoka as hy
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterator, Sequence
 
-__all__ = ["hy", "not_kept"]
+__all__ = ["hy", "not_kept", "parameter_rows"]
 
 hy.set_logger_level_error()
+
+
+def parameter_rows(outputs: Sequence[Any]) -> int:
+    """How many rows of parameters a compiled function of these outputs takes: up to the last that occurs in them."""
+    return max((int(str(parameter).removeprefix("p")) + 1 for parameter in hy.get_params(list(outputs))), default=0)
 
 
 @contextmanager

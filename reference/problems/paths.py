@@ -12,7 +12,7 @@ from fractions import Fraction
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from reference.arithmetic.exact import as_number, exact
-from reference.declaration import ClosedForm, Quantity, Row
+from reference.declaration import ClosedForm, Form, Invariant, Quantity, Row, StateSpace, Trial
 from reference.once import cached_property
 from reference.problem import APART, Problem
 from reference.problems.cycloid.arc import CycloidArc
@@ -56,6 +56,7 @@ class PolarCurve(Problem):
 
     z0: Fraction
 
+    invariants: ClassVar[tuple[Invariant, ...]] = ()
     row_of_polar: ClassVar[str]
 
     def __init__(self, z0: Any) -> None:
@@ -77,6 +78,10 @@ class PolarCurve(Problem):
     @property
     def start(self) -> tuple[Fraction, ...]:
         return (ZERO,) * len(self.state_names)
+
+    @property
+    def inputs(self) -> dict[str, tuple[Any, str]]:
+        return {"z0": (float(self.z0), "")}
 
     def rate(self) -> float:
         """Zero: the slopes do not depend on what is summed."""
@@ -132,11 +137,19 @@ class PolarByZ(PolarCurve):
     rows: ClassVar[tuple[Row, ...]] = (
         Row("state", (PHI, Quantity("depth", "1", "depth below the release", "1 - z")), DEPTH),
     )
-    state_names: ClassVar[tuple[str, ...]] = ("phi", "depth")
+    space: ClassVar[StateSpace] = StateSpace(
+        positions=("phi",), angles=("phi",), odd=None, along="depth", scale="largest", independent=""
+    )
+    trial: ClassVar[Trial] = Trial(states=((-3.0, 3.0), (0.1, 0.2)), parameters={"z0": (0.2, 0.4)}, step=(0.001, 0.002))
+    form: ClassVar[Form] = Form(
+        "z",
+        "curve dphi/dz",
+        "dphi/dz = -(z0^(3/2)/z) sqrt((1 - z)/((z - z0) Q)), Q = (1 - z0) z^2 + z0 (1 - z0) z + z0^2, down from z = 1",
+    )
     row_of_polar: ClassVar[str] = "by_z"
 
     @staticmethod
-    def derivative(m: Arithmetic, y: Sequence[Any], p: dict[str, Any]) -> tuple[Any, ...]:
+    def derivative(m: Arithmetic, t: Any, y: Sequence[Any], p: dict[str, Any]) -> tuple[Any, ...]:
         """(dphi/dd, 1)."""
         z0, depth = p["z0"], y[1]
         z = 1 - depth
@@ -170,11 +183,21 @@ class PolarByPsi(PolarCurve):
             Reals("psi", "psi"),
         ),
     )
-    state_names: ClassVar[tuple[str, ...]] = ("phi", "tau", "psi")
+    space: ClassVar[StateSpace] = StateSpace(
+        positions=("phi", "tau"), angles=("phi",), odd=None, along="psi", scale="largest", independent="rad"
+    )
+    trial: ClassVar[Trial] = Trial(
+        states=((-3.0, 3.0), (-3.0, 3.0), (0.5, 6.0)), parameters={"z0": (0.2, 0.8)}, step=(0.01, 0.1)
+    )
+    form: ClassVar[Form] = Form(
+        "psi",
+        "curve dphi/dpsi",
+        "dphi/dpsi = z0^(3/2) (1 - z)/(z sqrt(Q)), dtau/dpsi = z^2 sqrt((1 - z0)/Q), z = z0 sin^2 + cos^2 of psi/2",
+    )
     row_of_polar: ClassVar[str] = "curve"
 
     @staticmethod
-    def derivative(m: Arithmetic, y: Sequence[Any], p: dict[str, Any]) -> tuple[Any, ...]:
+    def derivative(m: Arithmetic, t: Any, y: Sequence[Any], p: dict[str, Any]) -> tuple[Any, ...]:
         """(dphi/dpsi, dtau/dpsi, 1)."""
         half = y[2] / 2
         sine, cosine = m.sin(half), m.cos(half)

@@ -109,7 +109,7 @@ def _compiled(
     symbols = {name: hy.par[i] for i, name in enumerate(parameter_names)}
     rates = [
         rate if isinstance(rate, hy.expression) else hy.expression(rate)
-        for rate in derivative(Heyoka(lambda value: _real(value, bits)), variables, symbols)
+        for rate in derivative(Heyoka(lambda value: _real(value, bits)), hy.time, variables, symbols)
     ]
     system: Any = list(zip(variables, rates, strict=True))
     if variational:

@@ -130,7 +130,7 @@ class RigidBody(Problem):
     start: ClassVar[tuple[Fraction, ...]] = (Fraction(1), Fraction(-1, 2), Fraction(2))
 
     @classmethod
-    def derivative(cls, m: object, y: Any, p: object) -> tuple[Any, ...]:  # noqa: ARG003
+    def derivative(cls, m: object, t: Any, y: Any, p: object) -> tuple[Any, ...]:  # noqa: ARG003
         a, b, c = y
         return -(b * c) / 6, 2 * (a * c) / 3, -(a * b) / 2
 

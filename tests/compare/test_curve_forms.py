@@ -129,8 +129,8 @@ def test_the_smooth_form_goes_through_the_lowest_point():
 def test_both_forms_of_a_curve_are_one_curve(known):
     theta, p = 2.0, {"radius": 1.0}
     y = 1 - math.cos(theta)
-    by_angle, _ = CycloidByAngle.derivative(NUMPY, (0.0, theta), p)
-    by_depth, _ = CycloidCurve.derivative(NUMPY, (0.0, y), p)
+    by_angle, _ = CycloidByAngle.derivative(NUMPY, 0, (0.0, theta), p)
+    by_depth, _ = CycloidCurve.derivative(NUMPY, 0, (0.0, y), p)
     assert by_angle == pytest.approx(by_depth * math.sin(theta), rel=1e-14)
     for singular, smooth, row in (("dx/dy", "dx/dtheta", "curve"), ("dphi/dz", "dphi/dpsi", "state")):
         one, other = known[singular], known[smooth]

@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 import pytest
+from compare.march.aspects import conserves
 
 from compare import error_vs_n
-from compare.march.aspects import conserves
 from compare.methods import find
 from compare.methods.multistep import MULTISTEP
 from reference import Cycloid, PolarBrachistochrone
@@ -38,7 +38,7 @@ def test_the_derivative_is_the_slope_of_the_proven_state(curve: Problem, places:
         with mp.workdps(50):
             gaps = [sum(map(mp.mpf, late)) - sum(map(mp.mpf, early)) for early, late in zip(before, after, strict=True)]
             parameters = {name: MPMATH.number(value) for name, value in curve.parameters.items()}
-            slopes = curve.derivative(MPMATH, [sum(map(mp.mpf, value)) for value in here], parameters)
+            slopes = curve.derivative(MPMATH, 0, [sum(map(mp.mpf, value)) for value in here], parameters)
             for gap, slope in zip(gaps, slopes, strict=True):
                 assert abs(gap / (2 * step.numerator / mp.mpf(step.denominator)) / slope - 1) < mp.mpf("1e-12")
 
@@ -57,7 +57,7 @@ def test_the_equation_does_not_depend_on_what_it_sums(curve: Problem, places: li
     parameters = {name: float(value) for name, value in curve.parameters.items()}
     here = list(curve.state(places[0]))
     moved = [value + 1 for value in here[:-1]] + here[-1:]
-    assert curve.derivative(NUMPY, here, parameters) == curve.derivative(NUMPY, moved, parameters)
+    assert curve.derivative(NUMPY, 0, here, parameters) == curve.derivative(NUMPY, 0, moved, parameters)
 
 
 @curves

@@ -9,13 +9,13 @@ from itertools import pairwise
 import numpy as np
 import pytest
 from flint import arb
+from reference.problems.orbits import orbits, remark
 
 import compare
 from reference import PolarBrachistochrone, Tunnel
 from reference.arithmetic.namespaces import BALL
 from reference.arithmetic.precision import ctx, mp
 from reference.orbits import apart
-from reference.problems.orbits import orbits, remark
 from reference.problems.polar.equations import POINT_MASS
 from reference.problems.polar.radial import RadialOscillation
 from reference.problems.polar.taylor import System, equations_of

@@ -114,12 +114,14 @@ def test_a_splitting_is_not_asked_for_steps_whose_square_takes_too_long():
 def test_the_source_of_an_equation_computes_what_the_equation_does():
     random = np.random.default_rng(7)
     parameters = {name: Term(f"p[{i}]") for i, name in enumerate(PENDULUM.parameters)}
-    rates = PENDULUM.derivative(SOURCE, [Term("y[0]"), Term("y[1]")], parameters)
+    rates = PENDULUM.derivative(SOURCE, 0, [Term("y[0]"), Term("y[1]")], parameters)
     code = compile(f"({', '.join(map(str, rates))})", "rates", "eval")
     for _ in range(20):
         y, p = random.uniform(-3, 3, 2), random.uniform(0.5, 20, 2)
         found = eval(code, {"math": math, "y": y, "p": p})  # noqa: S307 - it was written two lines above
-        assert found == pytest.approx(PENDULUM.derivative(NUMPY, y, dict(zip(parameters, p, strict=True))), rel=1e-15)
+        assert found == pytest.approx(
+            PENDULUM.derivative(NUMPY, 0, y, dict(zip(parameters, p, strict=True))), rel=1e-15
+        )
 
 
 def test_source_keeps_the_order_of_operations():

@@ -10,10 +10,10 @@ from typing import TYPE_CHECKING, Any
 import heyoka as hy
 import numpy as np
 import pytest
+from compare.march.aspects import aspect_of
 from flint import arb
 
 import compare
-from compare.march.aspects import aspect_of
 from compare.march.equation import plain_system
 from compare.march.march import Lane, march, sample_steps
 from compare.march.precision import FORMATS, Precision, precision
@@ -79,7 +79,7 @@ def trial(problem: Problem) -> tuple[list[float], dict[str, float]]:
 def integrator(problem: Problem, state: list[float], parameters: dict[str, float]) -> Any:
     """heyoka's own Taylor integrator of order 20."""
     names = hy.make_vars(*problem.state_names)
-    rates = problem.derivative(Heyoka(), names, parameters)
+    rates = problem.derivative(Heyoka(), 0, names, parameters)
     equations = [(name, hy.expression(rate)) for name, rate in zip(names, rates, strict=True)]
     found = hy.taylor_adaptive(equations, state, tol=np.finfo(float).eps)
     assert found.order == ORDER

@@ -191,7 +191,7 @@ def test_the_equation_of_motion_is_that_of_the_states():
     for name, problem in PROBLEMS.items():
         t, h = times(problem)[2], Fraction(1, 10**4)
         early, now, late = problem.state([t - h, t, t + h])
-        going, bend = problem.derivative(NUMPY, now, {"g": float(problem.g)})
+        going, bend = problem.derivative(NUMPY, 0, now, {"g": float(problem.g)})
         assert going == now[1]
         assert (late[0] - early[0]) / (2 * float(h)) == pytest.approx(going, rel=1e-5), name
         assert (late[1] - early[1]) / (2 * float(h)) == pytest.approx(bend, rel=1e-4, abs=1e-6), name
@@ -200,7 +200,7 @@ def test_the_equation_of_motion_is_that_of_the_states():
 def test_at_the_start_the_acceleration_is_that_of_the_slope():
     for name in ("line", "parabola", "quartic"):
         problem = PROBLEMS[name]
-        _, bend = problem.derivative(NUMPY, (0.0, 0.0), {"g": 9.81})
+        _, bend = problem.derivative(NUMPY, 0, (0.0, 0.0), {"g": 9.81})
         slope = 2 * {"line": 1, "parabola": 2, "quartic": 4}[name] / math.pi
         assert bend * math.pi == pytest.approx(9.81 * slope / (1 + slope**2), rel=1e-14)
 

@@ -198,7 +198,7 @@ def test_the_motion_obeys_its_equation_and_keeps_its_energy(z0):
             [Fraction(problem.certified("state", tau + i * step, j).digits(60)) for j in range(3)] for i in (-1, 0, 1)
         )
         slopes = [float((b - a) / (2 * step)) for a, b in zip(low, high, strict=True)]
-        rates = problem.derivative(NUMPY, [float(x) for x in here], {"kappa": kappa})
+        rates = problem.derivative(NUMPY, 0, [float(x) for x in here], {"kappa": kappa})
         np.testing.assert_allclose(slopes, rates, rtol=1e-10, atol=1e-10)
         with mp.workprec(200):
             exact = {"kappa": MPMATH.number(problem.parameters["kappa"])}
@@ -332,7 +332,7 @@ def test_a_march_has_its_start_its_neighbour_and_its_rate():
     assert 0 < near.z0 - problem.z0 < 1e-6
     z = np.linspace(0.5, 1, 1000)
     kappa = float(problem.parameters["kappa"])
-    slopes = np.gradient(problem.derivative(NUMPY, (z, 0 * z, 0 * z), {"kappa": kappa})[1], z)
+    slopes = np.gradient(problem.derivative(NUMPY, 0, (z, 0 * z, 0 * z), {"kappa": kappa})[1], z)
     assert np.abs(slopes).max() <= problem.rate() ** 2
     for ask in ("parameters", "rate"):
         with pytest.raises(ValueError, match="has an irrational lowest point; z0 is accepted"):

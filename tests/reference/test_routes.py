@@ -115,8 +115,8 @@ def test_a_rate_may_be_a_plain_number():
         state_names, parameters, start = ("y", "speed"), {}, (Fraction(0), Fraction(1, 3))
 
         @staticmethod
-        def derivative(m, y, p):
-            del p
+        def derivative(m, t, y, p):
+            del t, p
             return y[1], m.number(Fraction(1, 3))
 
     assert [float(x) for x in taylor.Flow(Fall, 120).at([Fraction(3)])[0]] == pytest.approx([2.5, 4 / 3], rel=1e-15)

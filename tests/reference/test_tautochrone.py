@@ -129,7 +129,7 @@ def test_the_closed_form_satisfies_the_equation_of_the_angle():
             assert abs(mp.diff(lambda s: form.state(s)[0], t) - omega) < mp.mpf(10) ** -35
             left = (1 + mp.cos(theta)) * omega_rate - mp.sin(theta) * omega**2 / 2 + g / (2 * radius) * mp.sin(theta)
             assert abs(left) < mp.mpf(10) ** -35
-            rates = problem.derivative(MPMATH, (theta, omega), {"radius": radius, "g": g})
+            rates = problem.derivative(MPMATH, 0, (theta, omega), {"radius": radius, "g": g})
             assert abs(rates[1] - omega_rate) < mp.mpf(10) ** -35
 
 
@@ -151,7 +151,7 @@ def test_the_arc_obeys_hamiltons_equations_and_is_separable():
     arc, rate, radius, g = hy.make_vars("arc", "rate", "radius", "g")
     parameters = {"radius": radius, "g": g}
     total = CycloidalPendulum.invariant(Heyoka(), (arc, rate), parameters)
-    rates = CycloidalPendulum.derivative(Heyoka(), (arc, rate), parameters)
+    rates = CycloidalPendulum.derivative(Heyoka(), 0, (arc, rate), parameters)
     differences = [rates[0] - hy.diff(total, rate), rates[1] + hy.diff(total, arc)]
     points = np.random.default_rng(7).uniform(0.1, 3, (4, 100))
     assert np.abs(hy.cfunc(differences, [arc, rate, radius, g])(points)).max() < 1e-12
@@ -197,7 +197,7 @@ def test_the_motion_is_odd_in_the_start_and_even_in_time():
 def _slope(states, place, parameters):
     """d(omega')/d(state[place]) by a central difference."""
     moved = [[states[i] + sign * 1e-6 * (i == place) for i in range(2)] for sign in (1, -1)]
-    above, below = (Tautochrone.derivative(NUMPY, state, parameters)[1] for state in moved)
+    above, below = (Tautochrone.derivative(NUMPY, 0, state, parameters)[1] for state in moved)
     return (above - below) / 2e-6
 
 

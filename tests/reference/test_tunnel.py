@@ -137,7 +137,7 @@ def test_the_motion_keeps_its_energy_and_starts_downward():
     assert z < 1
     assert rate < 0 < phi
     z = np.linspace(0.3, 1, 1000)
-    slopes = np.gradient(problem.derivative(NUMPY, (z, 0 * z, 0 * z), {"kappa": float(kappa)})[1], z)
+    slopes = np.gradient(problem.derivative(NUMPY, 0, (z, 0 * z, 0 * z), {"kappa": float(kappa)})[1], z)
     assert np.abs(slopes).max() <= problem.rate() ** 2
 
 

@@ -52,7 +52,11 @@ class _ValueSystem:
     def __init__(self, system: System) -> None:
         self._system = system
         self.number, self.tiny = system.number, system.tiny
-        self.dimension, self.positions, self.level = system.dimension, system.positions, system.level
+        self.dimension, self.positions = system.dimension, system.positions
+
+    @property
+    def level(self) -> Any:
+        return self._system.level
 
     def derivative(self, y: State) -> State:
         return self._system.derivative(_values(y))

@@ -37,10 +37,12 @@ class System(Equation, Protocol):
     """How many components the problem's state has."""
     positions: int
     """How many of the components are positions, 0 where the equation is not separable."""
-    level: Any
-    """The invariant at the start of the march, which a conservative method keeps."""
     tiny: Any
     """A number that is nothing beside any other but zero."""
+
+    @property
+    def level(self) -> Any:
+        """The first invariant at the start of the march, which a conservative method keeps."""
 
     def velocity(self, momenta: State) -> State:
         """The rates of the positions, which depend on the momenta alone."""
@@ -52,10 +54,10 @@ class System(Equation, Protocol):
         """y^(k)/k! for k = 1, ..., order, of the solution through y; what is always zero is the integer 0."""
 
     def invariant(self, y: State) -> Any:
-        """The problem's conserved quantity above its least value."""
+        """The first of the problem's invariants."""
 
     def gradient(self, y: State) -> State:
-        """The slopes of the invariant."""
+        """The slopes of the first invariant."""
 
 
 class Method(Protocol):

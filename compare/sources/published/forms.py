@@ -7,7 +7,7 @@ Both curves have an angle a in which they are smooth: y = 2 R sin^2(a/2) of the 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import lru_cache, partial
 from typing import TYPE_CHECKING, Any, ClassVar
@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from compare.sources.published.number import Number
     from compare.sources.published.source import Column, Table
     from reference.arithmetic.protocols import Arithmetic
+    from reference.declaration import StateSpace
     from reference.problem import Problem
 
 __all__ = ["EXACT", "REPRODUCED", "CycloidByAngle", "Form", "forms"]
@@ -43,10 +44,10 @@ class CycloidByAngle(CycloidCurve):
     """dx/dtheta = R (1 - cos theta), the depth itself: the thesis' (1.30) before its integration; smooth throughout."""
 
     name: ClassVar[str] = "cycloid by its angle"
-    state_names: ClassVar[tuple[str, ...]] = ("x", "theta")
+    space: ClassVar[StateSpace] = replace(CycloidCurve.space, along="theta", independent="rad")
 
     @classmethod
-    def derivative(cls, m: Arithmetic, y: Sequence[Any], p: dict[str, Any]) -> tuple[Any, ...]:
+    def derivative(cls, m: Arithmetic, t: Any, y: Sequence[Any], p: dict[str, Any]) -> tuple[Any, ...]:
         """d(x, theta)/dtheta."""
         _, depth = point_below_cusp(m, y[1], p["radius"])
         return depth, m.number(Fraction(1))

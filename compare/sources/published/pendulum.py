@@ -83,7 +83,7 @@ def dense(problem: Pendulum, method: str, step: Fraction, end: Fraction) -> Dens
     start = tuple(float(value) for value in problem.start)
     states = [start, *map(tuple, found.states.tolist())]
     parameters: dict[str, Any] = {name: float(value) for name, value in problem.parameters.items()}
-    rates = (tuple(map(float, problem.derivative(NUMPY, state, parameters))) for state in states)
+    rates = (tuple(map(float, problem.derivative(NUMPY, 0, state, parameters))) for state in states)
     return Dense(float(h), tuple(states), tuple(rates))  # type: ignore[arg-type]
 
 

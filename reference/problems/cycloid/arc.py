@@ -10,7 +10,7 @@ from reference.arithmetic import quadrature
 from reference.arithmetic.exact import as_number, exact
 from reference.arithmetic.namespaces import MPMATH
 from reference.arithmetic.precision import mp
-from reference.declaration import ClosedForm, Row
+from reference.declaration import ClosedForm, Form, Row, StateSpace, Trial
 from reference.problem import Problem
 from reference.problems.cycloid.equations import point_below_cusp, run
 from reference.problems.cycloid.quantities import CURVE_ROWS, HEIGHT, exponent, positive_number
@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from reference.arithmetic.protocols import Arithmetic, EllipticArithmetic
+    from reference.declaration import Invariant
     from reference.row_domains import Domain
 
 __all__ = ["CycloidArc"]
@@ -81,7 +82,16 @@ class CycloidArc(Problem):
 
     name: ClassVar[str] = "cycloid arc"
     rows: ClassVar[tuple[Row, ...]] = CURVE_ROWS
-    state_names: ClassVar[tuple[str, ...]] = ("x", "y")
+    space: ClassVar[StateSpace] = StateSpace(
+        positions=("x",), angles=(), odd=None, along="y", scale="largest", independent="m"
+    )
+    invariants: ClassVar[tuple[Invariant, ...]] = ()
+    trial: ClassVar[Trial] = Trial(
+        states=((-3.0, 3.0), (0.1, 0.6)), parameters={"radius": (0.5, 2.0)}, step=(0.001, 0.005)
+    )
+    form: ClassVar[Form] = Form(
+        "curve", "curve dx/dy", "dx/dy = sqrt(y/(2 R - y)), x(0) = 0, y the depth below the cusp"
+    )
 
     def __init__(self, radius: Any = 1) -> None:
         object.__setattr__(self, "radius", exact(radius, "radius"))
@@ -98,12 +108,16 @@ class CycloidArc(Problem):
     def start(self) -> tuple[Fraction, ...]:
         return ZERO, ZERO
 
+    @property
+    def inputs(self) -> dict[str, tuple[Any, str]]:
+        return {"radius": (float(self.radius), "m")}
+
     def domain(self, row: Row) -> Domain:
         """Depths end at the lowest point, 2 R."""
         return replace(HEIGHT, high=2 * self.radius) if row.domain is HEIGHT else row.domain
 
     @classmethod
-    def derivative(cls, m: Arithmetic, y: Sequence[Any], p: dict[str, Any]) -> tuple[Any, ...]:
+    def derivative(cls, m: Arithmetic, t: Any, y: Sequence[Any], p: dict[str, Any]) -> tuple[Any, ...]:
         """d(x, y)/dy = (sqrt(y/(2 R - y)), 1), with a square root's singularity at both ends."""
         return run(m, y[1], p["radius"]), m.number(Fraction(1))
 

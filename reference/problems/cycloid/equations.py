@@ -34,10 +34,14 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from reference.declaration import StateSpace, Trial
+
 if TYPE_CHECKING:
     from reference.arithmetic.protocols import Arithmetic
 
 __all__ = [
+    "ARC_SPACE",
+    "ARC_TRIAL",
     "angular_acceleration",
     "arc_acceleration",
     "arc_energy",
@@ -50,6 +54,20 @@ __all__ = [
     "slowness",
     "swing_energy",
 ]
+
+
+ARC_SPACE = StateSpace(
+    positions=("arc",),
+    velocities=("arc_rate",),
+    angles=(),
+    odd=("arc_rate",),
+    along=None,
+    scale="largest",
+    independent="s",
+)
+ARC_TRIAL = Trial(
+    states=((-3.0, 3.0), (-3.0, 3.0)), parameters={"radius": (0.5, 2.0), "g": (0.5, 2.0)}, step=(0.01, 0.1)
+)
 
 
 class Place(NamedTuple):

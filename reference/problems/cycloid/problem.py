@@ -8,13 +8,15 @@ from fractions import Fraction
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from reference.arithmetic.exact import as_number, exact, rational_root
-from reference.arithmetic.namespaces import MPMATH
+from reference.arithmetic.namespaces import BALL, MPMATH
 from reference.arithmetic.precision import mp
 from reference.arithmetic.quadrature import to_fraction
+from reference.declaration import ENERGY_ABOVE_REST, Form
 from reference.once import cached_property
+from reference.orbits import Harmonic
 from reference.problem import APART, SeparableProblem
 from reference.problems.cycloid.brachistochrone import Brachistochrone, QuadratureBrachistochrone
-from reference.problems.cycloid.equations import arc_acceleration, arc_energy
+from reference.problems.cycloid.equations import ARC_SPACE, ARC_TRIAL, arc_acceleration, arc_energy
 from reference.problems.cycloid.quantities import DESCENT_ROWS, exponent, positive_number
 from reference.problems.cycloid.taylor import TaylorBrachistochrone
 
@@ -22,10 +24,12 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
     import numpy as np
+    from flint import arb
 
     from reference.arithmetic.protocols import Arithmetic, CalculusArithmetic
     from reference.certified import Certified
-    from reference.declaration import Row
+    from reference.declaration import Invariant, Row, StateSpace, Trial
+    from reference.orbits import Orbits
 
 __all__ = ["Cycloid"]
 
@@ -65,8 +69,12 @@ class Cycloid(SeparableProblem):
 
     name: ClassVar[str] = "cycloid"
     rows: ClassVar[tuple[Row, ...]] = DESCENT_ROWS
-    state_names: ClassVar[tuple[str, ...]] = ("arc", "arc_rate")
-    positions: ClassVar[int] = 1
+    space: ClassVar[StateSpace] = ARC_SPACE
+    invariants: ClassVar[tuple[Invariant, ...]] = (ENERGY_ABOVE_REST,)
+    trial: ClassVar[Trial] = ARC_TRIAL
+    form: ClassVar[Form] = Form(
+        "motion", "motion", "s'' = g (1 - s/(4 R)), s the arc length from the cusp, at rest at s = 0"
+    )
 
     def __init__(self, end_x: Any, end_y: Any, g: Any = 9.81) -> None:
         for name, value in (("end_x", end_x), ("end_y", end_y), ("g", g)):
@@ -88,18 +96,34 @@ class Cycloid(SeparableProblem):
     def start(self) -> tuple[Fraction, ...]:
         return ZERO, ZERO
 
+    @property
+    def inputs(self) -> dict[str, tuple[Any, str]]:
+        return {"end_x": (float(self.end_x), "m"), "end_y": (float(self.end_y), "m")}
+
+    def cycle(self) -> float:
+        """2 pi sqrt(4 R/g): from cusp to cusp and back."""
+        return 2 * math.pi / self.rate()
+
+    def orbits(self) -> Orbits:
+        radius: arb = self.closed_form(BALL).radius
+        return Harmonic(self.start, (BALL.number(self.g) / radius).sqrt() / 2, 4 * radius)
+
+    @property
+    def lacks_of_orbits(self) -> str:
+        return ""
+
     @staticmethod
-    def velocity(m: Arithmetic, momenta: Sequence[Any], p: dict[str, Any]) -> tuple[Any, ...]:  # noqa: ARG004
+    def velocity(m: Arithmetic, t: Any, momenta: Sequence[Any], p: dict[str, Any]) -> tuple[Any, ...]:
         """The rate of the arc length."""
         return (momenta[0],)
 
     @staticmethod
-    def force(m: Arithmetic, positions: Sequence[Any], p: dict[str, Any]) -> tuple[Any, ...]:  # noqa: ARG004
+    def force(m: Arithmetic, t: Any, positions: Sequence[Any], p: dict[str, Any]) -> tuple[Any, ...]:
         """s'' = g (1 - s/(4 R)), s from the start."""
         return (arc_acceleration(positions[0] - 4 * p["radius"], p["radius"], p["g"]),)
 
     @staticmethod
-    def invariant(m: Arithmetic, y: Sequence[Any], p: dict[str, Any]) -> Any:  # noqa: ARG004
+    def invariant(m: Arithmetic, y: Sequence[Any], p: dict[str, Any]) -> Any:
         """The energy per mass above rest at the bottom, in m^2/s^2."""
         return arc_energy(y[0] - 4 * p["radius"], y[1], p["radius"], p["g"])
 

@@ -10,15 +10,20 @@ from reference.arithmetic.exact import as_number, exact
 from reference.arithmetic.limbs import Interval, interval, ziv
 from reference.arithmetic.namespaces import BALL, MPMATH
 from reference.arithmetic.precision import mp
+from reference.declaration import ENERGY_ABOVE_REST, Form, StateSpace, Trial
 from reference.once import cached_property
+from reference.orbits import Harmonic
 from reference.problem import APART, Problem, SeparableProblem
 from reference.problems.cycloid.equations import (
+    ARC_SPACE,
+    ARC_TRIAL,
     angular_acceleration,
     arc_acceleration,
     arc_energy,
     arc_frequency,
     swing_energy,
 )
+from reference.problems.cycloid.orbits import CycloidAngles
 from reference.problems.cycloid.quantities import PENDULUM_ROWS, SWING_ROWS, exponent, positive_number
 from reference.problems.cycloid.swing import ArcSwing, QuadratureArcSwing, QuadratureSwing, Swing
 from reference.problems.cycloid.taylor import TaylorSwing
@@ -30,7 +35,8 @@ if TYPE_CHECKING:
 
     from reference.arithmetic.protocols import Arithmetic, EllipticArithmetic
     from reference.certified import Certified
-    from reference.declaration import Row
+    from reference.declaration import Invariant, Row
+    from reference.orbits import Orbits
 
 __all__ = ["CycloidalPendulum", "Swinging", "Tautochrone"]
 
@@ -64,6 +70,14 @@ class Swinging(Problem):
     def quadrature_form(self) -> Swing | ArcSwing:
         """The closed form in mpmath, with the times by an integral."""
         raise NotImplementedError
+
+    @property
+    def lacks_of_orbits(self) -> str:
+        return ""
+
+    def _w(self) -> arb:
+        """w in balls."""
+        return (BALL.number(self.g) / BALL.number(self.radius)).sqrt() / 2
 
     def frequency(self) -> float:
         """w = sqrt(g/(4 R)) in rad/s."""
@@ -129,7 +143,22 @@ class Tautochrone(Swinging):
 
     name: ClassVar[str] = "tautochrone"
     rows: ClassVar[tuple[Row, ...]] = SWING_ROWS
-    state_names: ClassVar[tuple[str, ...]] = ("angle", "angular_velocity")
+    space: ClassVar[StateSpace] = StateSpace(
+        positions=("angle",),
+        velocities=("angular_velocity",),
+        angles=("angle",),
+        odd=("angular_velocity",),
+        along=None,
+        scale="largest",
+        independent="s",
+    )
+    invariants: ClassVar[tuple[Invariant, ...]] = (ENERGY_ABOVE_REST,)
+    trial: ClassVar[Trial] = Trial(
+        states=((-2.0, 2.0), (-1.0, 1.0)), parameters={"radius": (0.5, 2.0), "g": (0.5, 2.0)}, step=(0.001, 0.01)
+    )
+    form: ClassVar[Form] = Form(
+        "angle", "by the angle", "theta'' = tan(theta/2) (theta'^2/2 - g/(2 R)), theta(0) = angle, theta'(0) = 0"
+    )
 
     def __init__(self, angle: Any, radius: Any = 1.0, g: Any = 9.81) -> None:
         for name, value in (("angle", angle), ("radius", radius), ("g", g)):
@@ -161,8 +190,15 @@ class Tautochrone(Swinging):
     def start(self) -> tuple[Fraction, ...]:
         return self.angle, ZERO
 
+    @property
+    def inputs(self) -> dict[str, tuple[Any, str]]:
+        return {"angle": (float(self.angle), "rad")}
+
+    def orbits(self) -> Orbits:
+        return CycloidAngles(self.start, self._w())
+
     @classmethod
-    def derivative(cls, m: Arithmetic, y: Sequence[Any], p: dict[str, Any]) -> tuple[Any, ...]:
+    def derivative(cls, m: Arithmetic, t: Any, y: Sequence[Any], p: dict[str, Any]) -> tuple[Any, ...]:
         """theta' = omega, omega' = tan(theta/2) (omega^2/2 - g/(2 R))."""
         return y[1], angular_acceleration(m, y[0], y[1], p["radius"], p["g"])
 
@@ -217,8 +253,10 @@ class CycloidalPendulum(SeparableProblem, Swinging):
 
     name: ClassVar[str] = "cycloidal pendulum"
     rows: ClassVar[tuple[Row, ...]] = PENDULUM_ROWS
-    state_names: ClassVar[tuple[str, ...]] = ("arc", "arc_rate")
-    positions: ClassVar[int] = 1
+    space: ClassVar[StateSpace] = ARC_SPACE
+    invariants: ClassVar[tuple[Invariant, ...]] = (ENERGY_ABOVE_REST,)
+    trial: ClassVar[Trial] = ARC_TRIAL
+    form: ClassVar[Form] = Form("arc", "by the arc", "s'' = -(g/(4 R)) s, s(0) = arc, s'(0) = 0")
 
     def __init__(self, arc: Any, radius: Any = 1.0, g: Any = 9.81) -> None:
         for name, value in (("arc", arc), ("radius", radius), ("g", g)):
@@ -236,18 +274,25 @@ class CycloidalPendulum(SeparableProblem, Swinging):
     def start(self) -> tuple[Fraction, ...]:
         return self.arc, ZERO
 
+    @property
+    def inputs(self) -> dict[str, tuple[Any, str]]:
+        return {"arc": (float(self.arc), "m")}
+
+    def orbits(self) -> Orbits:
+        return Harmonic(self.start, self._w())
+
     @staticmethod
-    def velocity(m: Arithmetic, momenta: Sequence[Any], p: dict[str, Any]) -> tuple[Any, ...]:  # noqa: ARG004
+    def velocity(m: Arithmetic, t: Any, momenta: Sequence[Any], p: dict[str, Any]) -> tuple[Any, ...]:
         """The rate of the arc length."""
         return (momenta[0],)
 
     @staticmethod
-    def force(m: Arithmetic, positions: Sequence[Any], p: dict[str, Any]) -> tuple[Any, ...]:  # noqa: ARG004
+    def force(m: Arithmetic, t: Any, positions: Sequence[Any], p: dict[str, Any]) -> tuple[Any, ...]:
         """s'' = -(g/(4 R)) s."""
         return (arc_acceleration(positions[0], p["radius"], p["g"]),)
 
     @staticmethod
-    def invariant(m: Arithmetic, y: Sequence[Any], p: dict[str, Any]) -> Any:  # noqa: ARG004
+    def invariant(m: Arithmetic, y: Sequence[Any], p: dict[str, Any]) -> Any:
         """The energy per mass above rest at the bottom, in m^2/s^2."""
         return arc_energy(y[0], y[1], p["radius"], p["g"])
 

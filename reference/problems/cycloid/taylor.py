@@ -35,10 +35,10 @@ class System:
     state_names: tuple[str, ...]
     start: tuple[Fraction, ...]
     parameters: dict[str, Fraction]
-    derivative: Callable[[Arithmetic, Sequence[Any], dict[str, Any]], tuple[Any, ...]]
+    derivative: Callable[[Any, Any, Sequence[Any], dict[str, Any]], tuple[Any, ...]]
 
 
-def bead(m: Arithmetic, y: Sequence[Any], p: dict[str, Any]) -> tuple[Any, ...]:
+def bead(m: Arithmetic, t: Any, y: Sequence[Any], p: dict[str, Any]) -> tuple[Any, ...]:
     """(s, s', x)' of a bead on the cycloid: s'' by its equation, and dx/dtheta = y with theta' = sqrt(g/R)."""
     arc, rate, _ = y
     radius, g = p["radius"], p["g"]
@@ -49,13 +49,13 @@ BEAD = System(("arc", "rate", "x"), (ZERO, ZERO, ZERO), {"radius": ONE, "g": ONE
 """From the cusp, in units of R and sqrt(R/g): time is the angle."""
 
 
-def chord(m: Arithmetic, y: Sequence[Any], p: dict[str, Any]) -> tuple[Any, ...]:
+def chord(m: Arithmetic, t: Any, y: Sequence[Any], p: dict[str, Any]) -> tuple[Any, ...]:
     """(c, c')' of the fraction c of a straight chord."""
-    del m
+    del m, t
     return y[1], p["pull"]
 
 
-def neighbours(m: Arithmetic, y: Sequence[Any], p: dict[str, Any]) -> tuple[Any, ...]:
+def neighbours(m: Arithmetic, t: Any, y: Sequence[Any], p: dict[str, Any]) -> tuple[Any, ...]:
     """The fraction of the angle, and the time on each neighbour over that fraction, in units of the cycloid's."""
     half, pi, *epsilons = p.values()
     return m.number(ONE), *(slowness(m, y[0], half, pi, epsilon) for epsilon in epsilons)

@@ -15,7 +15,7 @@ from reference.arithmetic.exact import as_number, exact
 from reference.arithmetic.limbs import ziv
 from reference.arithmetic.namespaces import NUMPY
 from reference.arithmetic.precision import ctx
-from reference.declaration import Quantity, Row
+from reference.declaration import ENERGY_ABOVE_REST, Quantity, Row, StateSpace, Trial
 from reference.names import said, short
 from reference.once import cached_property
 from reference.problem import APART, Problem
@@ -33,7 +33,7 @@ if TYPE_CHECKING:
     from flint import arb
 
     from reference.certified import Certified
-    from reference.declaration import ClosedForm
+    from reference.declaration import ClosedForm, Invariant
     from reference.problems.descent.slide import Slide
 
 __all__ = ["ROWS", "Descent"]
@@ -122,7 +122,17 @@ class Descent(Problem):
 
     name: ClassVar[str] = "descent"
     rows: ClassVar[tuple[Row, ...]] = ROWS
-    state_names: ClassVar[tuple[str, ...]] = ("place", "place_rate")
+    space: ClassVar[StateSpace] = StateSpace(
+        positions=("place",),
+        velocities=("place_rate",),
+        angles=(),
+        odd=("place_rate",),
+        along=None,
+        scale="largest",
+        independent="s",
+    )
+    invariants: ClassVar[tuple[Invariant, ...]] = (ENERGY_ABOVE_REST,)
+    trial: ClassVar[Trial] = Trial(states=((0.2, 0.5), (0.0, 0.5)), parameters={"g": (0.5, 2.0)}, step=(0.001, 0.005))
     max_bits: ClassVar[int] = 2048
 
     def __init__(
@@ -179,7 +189,22 @@ class Descent(Problem):
             raise ValueError(f"{self!r} starts at a cusp, where its equation of motion has no start.")
         return self.released, Fraction(0)
 
-    def derivative(self, m: Any, y: Sequence[Any], p: dict[str, Any]) -> tuple[Any, ...]:
+    @property
+    def equation(self) -> str:
+        """Lagrange's equation, and its start."""
+        return "N w'' = -(g y_w + N_w w'^2/2), N = x_w^2 + y_w^2, w(0) = w'(0) = 0, w the fraction of the way"
+
+    @property
+    def inputs(self) -> dict[str, tuple[Any, str]]:
+        released = {"released": (float(self.released), "")} if self.released else {}
+        return {"curve": (self.curve.name, ""), **released}
+
+    @property
+    def structure(self) -> Any:
+        """The curve: its shape stands in the equation."""
+        return type(self), self.curve
+
+    def derivative(self, m: Any, t: Any, y: Sequence[Any], p: dict[str, Any]) -> tuple[Any, ...]:
         """(w', w'') at the fraction w of the way, in 1/s and 1/s^2."""
         return lagrange(self.curve, m, y[0], y[1], p["g"])
 
@@ -196,7 +221,7 @@ class Descent(Problem):
         found = [0.0]
         for w, by_time in self.state([until * Fraction(k, 16) for k in range(self.slide.order - 1, 17)]):
             state = duals.variable(w, 0), duals.variable(by_time, 1)
-            _, bend = self.derivative(duals, state, {"g": float(self.g)})
+            _, bend = self.derivative(duals, 0, state, {"g": float(self.g)})
             by_place, by_rate = (float(slope) for slope in bend.slopes)
             found.append(abs(by_rate) + abs(by_place) ** 0.5)
         return max(found)

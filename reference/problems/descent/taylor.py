@@ -30,7 +30,7 @@ class Equation:
 
     curve: Curve
 
-    def derivative(self, m: Any, y: Sequence[Any], p: dict[str, Any]) -> tuple[Any, ...]:
+    def derivative(self, m: Any, t: Any, y: Sequence[Any], p: dict[str, Any]) -> tuple[Any, ...]:
         """(w', w'', s')"""
         w, rate, _ = y
         return *lagrange(self.curve, m, w, rate, p["g"]), m.sqrt(self.curve.profile(m, w)[2]) * rate

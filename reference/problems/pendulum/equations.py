@@ -8,10 +8,33 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from reference.declaration import StateSpace, Trial
+
 if TYPE_CHECKING:
+    from fractions import Fraction
+
     from reference.arithmetic.protocols import Arithmetic
 
-__all__ = ["angular_acceleration", "condition", "energy", "energy_above_rest"]
+__all__ = ["ABOUT_REST", "SWING", "angular_acceleration", "condition", "energy", "energy_above_rest", "of_the_start"]
+
+SWING = StateSpace(
+    positions=("theta",),
+    velocities=("omega",),
+    angles=("theta",),
+    odd=("omega",),
+    along=None,
+    scale="units",
+    independent="s",
+)
+ABOUT_REST = Trial(
+    states=((-3.0, 3.0), (-3.0, 3.0)), parameters={"g": (0.5, 2.0), "length": (0.5, 2.0)}, step=(0.01, 0.1)
+)
+
+
+def of_the_start(theta0: Fraction, omega0: Fraction) -> dict[str, tuple[Any, str]]:
+    """What tells pendulums from each other: where they start, and how fast where they are set going."""
+    going = {"omega0": (float(omega0), "rad/s")} if omega0 else {}
+    return {"theta0": (float(theta0), "rad"), **going}
 
 
 def angular_acceleration(m: Arithmetic, theta: Any, g: Any, length: Any) -> Any:

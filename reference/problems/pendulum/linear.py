@@ -9,10 +9,13 @@ from typing import TYPE_CHECKING, Any, ClassVar
 from reference.arithmetic import quadrature
 from reference.arithmetic.exact import as_number, exact
 from reference.arithmetic.limbs import BINARY64_BITS
-from reference.arithmetic.namespaces import MPMATH
+from reference.arithmetic.namespaces import BALL, MPMATH
 from reference.arithmetic.precision import mp
+from reference.declaration import ENERGY_ABOVE_REST
 from reference.once import cached_property
+from reference.orbits import Harmonic
 from reference.problem import APART, SeparableProblem
+from reference.problems.pendulum.equations import ABOUT_REST, SWING, of_the_start
 from reference.problems.pendulum.motions import Rest
 from reference.problems.pendulum.quantities import LINEAR_ROWS
 from reference.problems.pendulum.taylor import TAYLOR_RADIANS, hanging
@@ -23,7 +26,8 @@ if TYPE_CHECKING:
 
     from reference.arithmetic.protocols import Arithmetic, EllipticArithmetic
     from reference.certified import Certified
-    from reference.declaration import Row
+    from reference.declaration import Invariant, Row, StateSpace, Trial
+    from reference.orbits import Orbits
 
 __all__ = ["LinearPendulum", "linear_acceleration", "linear_energy"]
 
@@ -62,8 +66,9 @@ class LinearPendulum(SeparableProblem):
 
     name: ClassVar[str] = "linear pendulum"
     rows: ClassVar[tuple[Row, ...]] = LINEAR_ROWS
-    state_names: ClassVar[tuple[str, ...]] = ("theta", "omega")
-    positions: ClassVar[int] = 1
+    space: ClassVar[StateSpace] = SWING
+    invariants: ClassVar[tuple[Invariant, ...]] = (ENERGY_ABOVE_REST,)
+    trial: ClassVar[Trial] = ABOUT_REST
 
     def __init__(self, theta0: Any, g: Any = 9.81, length: Any = 1.0, omega0: Any = 0) -> None:
         for name, value in (("theta0", theta0), ("g", g), ("length", length), ("omega0", omega0)):
@@ -88,18 +93,27 @@ class LinearPendulum(SeparableProblem):
     def start(self) -> tuple[Fraction, ...]:
         return self.theta0, self.omega0
 
+    @property
+    def equation(self) -> str:
+        """theta'' = -(g/length) theta, and its start."""
+        return "theta'' = -(g/length) theta, theta(0) = theta0, theta'(0) = omega0"
+
+    @property
+    def inputs(self) -> dict[str, tuple[Any, str]]:
+        return of_the_start(self.theta0, self.omega0)
+
     @staticmethod
-    def velocity(m: Arithmetic, momenta: Sequence[Any], p: dict[str, Any]) -> tuple[Any, ...]:  # noqa: ARG004
+    def velocity(m: Arithmetic, t: Any, momenta: Sequence[Any], p: dict[str, Any]) -> tuple[Any, ...]:
         """theta' = omega."""
         return (momenta[0],)
 
     @staticmethod
-    def force(m: Arithmetic, positions: Sequence[Any], p: dict[str, Any]) -> tuple[Any, ...]:  # noqa: ARG004
+    def force(m: Arithmetic, t: Any, positions: Sequence[Any], p: dict[str, Any]) -> tuple[Any, ...]:
         """omega' = -(g/l) theta."""
         return (linear_acceleration(positions[0], p["g"], p["length"]),)
 
     @staticmethod
-    def invariant(m: Arithmetic, y: Sequence[Any], p: dict[str, Any]) -> Any:  # noqa: ARG004
+    def invariant(m: Arithmetic, y: Sequence[Any], p: dict[str, Any]) -> Any:
         """The energy per m l^2, in 1/s^2."""
         return linear_energy(y[0], y[1], p["g"], p["length"])
 
@@ -112,6 +126,13 @@ class LinearPendulum(SeparableProblem):
         """The pendulum whose start is nearer to rest by 2^-36, or by 16 roundings."""
         nearer = 1 - max(APART, 16 * epsilon)
         return LinearPendulum(rounding(self.theta0 * nearer), self.g, self.length, rounding(self.omega0 * nearer))
+
+    def orbits(self) -> Orbits:
+        return Harmonic(self.start, (BALL.number(self.g) / BALL.number(self.length)).sqrt())
+
+    @property
+    def lacks_of_orbits(self) -> str:
+        return ""
 
     def closed_form(self, m: EllipticArithmetic) -> Linear:
         """Cosine and sine, in balls or in mpmath."""

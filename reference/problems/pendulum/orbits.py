@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
     from fractions import Fraction
 
-    from reference.problems.pendulum import Pendulum
+    from reference.problem import Problem
 
 __all__ = ["Librations", "PendulumOrbits", "Rotations", "Small"]
 
@@ -21,8 +21,9 @@ __all__ = ["Librations", "PendulumOrbits", "Rotations", "Small"]
 class PendulumOrbits:
     """With s, c = sin, cos(theta/2), w = sqrt(g/l), p = theta'/(2 w): the modulus k has k^2 = s^2 + p^2."""
 
-    def __init__(self, problem: Pendulum) -> None:
-        self.w = (BALL.number(problem.g) / BALL.number(problem.length)).sqrt()
+    def __init__(self, problem: Problem) -> None:
+        parameters = problem.parameters
+        self.w = (BALL.number(parameters["g"]) / BALL.number(parameters["length"])).sqrt()
         self._start = self.place([BALL.number(value) for value in problem.start])
         periodic = problem.serves("period")
         self._frequency = 1 / problem.closed_form(BALL).rows("period", [None])[0][0] if periodic else arb(0)
@@ -61,8 +62,8 @@ class Librations(PendulumOrbits):
 class Rotations(PendulumOrbits):
     """Phase in turns: whole ones, and F(theta/2, 1/k)/(2 K(1/k)) since the bottom; a rotation has no amplitude."""
 
-    def __init__(self, problem: Pendulum) -> None:
-        self._direction = 1 if problem.omega0 > 0 else -1
+    def __init__(self, problem: Problem) -> None:
+        self._direction = 1 if problem.start[1] > 0 else -1
         super().__init__(problem)
 
     def place(self, y: Sequence[arb]) -> Place:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any, ClassVar
 
@@ -11,12 +11,20 @@ from reference.arithmetic.exact import as_number, exact
 from reference.arithmetic.limbs import BINARY64_BITS, ziv
 from reference.arithmetic.namespaces import BALL, MPMATH
 from reference.arithmetic.precision import ctx, mp
+from reference.declaration import ENERGY_ABOVE_REST
 from reference.once import cached_property
 from reference.problem import APART, SeparableProblem
 from reference.problems.pendulum.chart import MANY, Chart, chart
-from reference.problems.pendulum.equations import angular_acceleration, energy_above_rest
+from reference.problems.pendulum.equations import (
+    ABOUT_REST,
+    SWING,
+    angular_acceleration,
+    energy_above_rest,
+    of_the_start,
+)
 from reference.problems.pendulum.events import DECISION_BITS, Events, events
 from reference.problems.pendulum.motions import BY_QUADRATURE, CLOSED_FORMS, Motion
+from reference.problems.pendulum.orbits import Librations, Rotations, Small
 from reference.problems.pendulum.quantities import ROWS, SERVED
 from reference.problems.pendulum.rational import rational
 from reference.problems.pendulum.taylor import TAYLOR_RADIANS, TaylorMotion
@@ -28,7 +36,8 @@ if TYPE_CHECKING:
 
     from reference.arithmetic.protocols import Arithmetic, EllipticArithmetic
     from reference.certified import Certified
-    from reference.declaration import Row
+    from reference.declaration import Invariant, Row, StateSpace, Trial
+    from reference.orbits import Orbits
     from reference.problems.pendulum.approximations import LindstedtSolution, PeriodSeries
 
 __all__ = ["Pendulum"]
@@ -62,8 +71,9 @@ class Pendulum(SeparableProblem):
 
     name: ClassVar[str] = "pendulum"
     rows: ClassVar[tuple[Row, ...]] = ROWS
-    state_names: ClassVar[tuple[str, ...]] = ("theta", "omega")
-    positions: ClassVar[int] = 1
+    space: ClassVar[StateSpace] = replace(SWING, axes=("angle θ [rad]", "angular velocity ω [rad/s]"))
+    invariants: ClassVar[tuple[Invariant, ...]] = (ENERGY_ABOVE_REST,)
+    trial: ClassVar[Trial] = ABOUT_REST
 
     def __init__(self, theta0: Any, g: Any = 9.81, length: Any = 1.0, omega0: Any = None) -> None:
         going = 0 if omega0 is None else omega0
@@ -138,13 +148,22 @@ class Pendulum(SeparableProblem):
         """The motion, where "release" is the libration that starts from rest."""
         return "release" if self.motion == "libration" and self.omega0 == 0 else self.motion
 
+    @property
+    def equation(self) -> str:
+        """theta'' = -(g/length) sin(theta), and its start."""
+        return "theta'' = -(g/length) sin(theta), theta(0) = theta0, theta'(0) = " + ("omega0" if self.omega0 else "0")
+
+    @property
+    def inputs(self) -> dict[str, tuple[Any, str]]:
+        return of_the_start(self.theta0, self.omega0)
+
     @staticmethod
-    def velocity(m: Arithmetic, momenta: Sequence[Any], p: dict[str, Any]) -> tuple[Any, ...]:  # noqa: ARG004
+    def velocity(m: Arithmetic, t: Any, momenta: Sequence[Any], p: dict[str, Any]) -> tuple[Any, ...]:
         """theta' = omega."""
         return (momenta[0],)
 
     @staticmethod
-    def force(m: Arithmetic, positions: Sequence[Any], p: dict[str, Any]) -> tuple[Any, ...]:
+    def force(m: Arithmetic, t: Any, positions: Sequence[Any], p: dict[str, Any]) -> tuple[Any, ...]:
         """omega' = -(g/l) sin theta."""
         return (angular_acceleration(m, positions[0], p["g"], p["length"]),)
 
@@ -224,6 +243,27 @@ class Pendulum(SeparableProblem):
             arguments = [Fraction(period) * (index + 1) for index in arguments]
         times = [t for t in arguments if isinstance(t, Fraction)]
         return all(t >= 0 and t * t * self.g / self.length <= TAYLOR_RADIANS**2 for t in times)
+
+    def orbits(self) -> Orbits | None:
+        kinds = {"libration": Librations, "rotation": Rotations, "rest": Small}
+        return kinds[self.motion](self) if self.motion in kinds else None
+
+    @property
+    def lacks_of_orbits(self) -> str:
+        lacks = {
+            "separatrix": "The separatrix has no period, and so neither phase nor amplitude errors.",
+            "rotation": "A rotation has no amplitude.",
+            "rest": "At rest there is no phase.",
+        }
+        return lacks.get(self.motion, "")
+
+    def passages(self, until: float) -> tuple[str, int] | None:
+        """The passages through the bottom."""
+        return ("zero_crossing", len(self.events(until).zero_crossings)) if self.serves("zero_crossing") else None
+
+    def event(self, m: Arithmetic, y: Sequence[Any]) -> Any:
+        """sin(theta/2), zero at the bottom in whichever turn."""
+        return m.sin(y[0] / 2)
 
     def period(self) -> Certified:
         """T in s: 4 K(k) sqrt(l/g) in libration, the time of one turn in rotation.

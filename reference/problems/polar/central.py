@@ -13,6 +13,7 @@ from reference.arithmetic.exact import as_number, exact, exact_array, rational_r
 from reference.arithmetic.limbs import BINARY64_BITS
 from reference.arithmetic.namespaces import BALL, MPMATH
 from reference.arithmetic.precision import ctx, mp
+from reference.declaration import Invariant, StateSpace, Trial
 from reference.names import said
 from reference.once import cached_property
 from reference.problem import Problem
@@ -57,7 +58,20 @@ class CentralBrachistochrone(Problem):
     r0: Fraction | None
     body: str | None = known_as(compare=False)
 
-    state_names: ClassVar[tuple[str, ...]] = ("z", "z_rate", "phi")
+    space: ClassVar[StateSpace] = StateSpace(
+        positions=("z", "phi"),
+        velocities=("z_rate",),
+        angles=("phi",),
+        odd=("z_rate", "phi"),
+        along=None,
+        scale="largest",
+        independent="",
+        order=("z", "z_rate", "phi"),
+    )
+    invariants: ClassVar[tuple[Invariant, ...]] = (Invariant("energy", ("Invariant", "(I - I0)/I0"), "start"),)
+    trial: ClassVar[Trial] = Trial(
+        states=((0.5, 0.9), (-0.5, 0.5), (-1.0, 1.0)), parameters={"kappa": (0.5, 2.0)}, step=(0.001, 0.01)
+    )
     max_bits: ClassVar[int] = 1 << 14
     field: ClassVar[Field]
 
@@ -158,8 +172,20 @@ class CentralBrachistochrone(Problem):
     def start(self) -> tuple[Fraction, ...]:
         return Fraction(1), Fraction(0), Fraction(0)
 
+    @property
+    def inputs(self) -> dict[str, tuple[Any, str]]:
+        return {"z0": (float(self._lowest()), "")}
+
+    def cycle(self) -> float:
+        """Twice the time to the lowest point."""
+        return 2 * float(self.certified("descent_time"))
+
+    @property
+    def lacks_of_orbits(self) -> str:
+        return ""
+
     @classmethod
-    def derivative(cls, m: Arithmetic, y: Sequence[Any], p: dict[str, Any]) -> tuple[Any, ...]:
+    def derivative(cls, m: Arithmetic, t: Any, y: Sequence[Any], p: dict[str, Any]) -> tuple[Any, ...]:
         """(z', z'', phi') in tau."""
         acceleration, turn = cls.field.motion(m, y[0], p["kappa"])
         return y[1], acceleration, turn

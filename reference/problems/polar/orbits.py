@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
     from fractions import Fraction
 
-    from reference.problems.polar.central import CentralBrachistochrone
+    from reference.problem import Problem
 
 __all__ = ["CentralOrbits", "PointMassRadii", "TunnelRadii"]
 
@@ -32,7 +32,7 @@ STEPS = 400
 class CentralOrbits:
     """The exact motion begins at its highest point, z = 1, half a period after a lowest one."""
 
-    def __init__(self, problem: CentralBrachistochrone) -> None:
+    def __init__(self, problem: Problem) -> None:
         form: Any = problem.closed_form(BALL)
         self._problem, self.z0 = problem, form.z0
         self._parameters = {name: BALL.number(value) for name, value in problem.parameters.items()}
@@ -74,7 +74,7 @@ class PointMassRadii(CentralOrbits):
     zero of its slope with -0.79 < w < -1/2, beyond which there is another.
     """
 
-    def __init__(self, problem: CentralBrachistochrone) -> None:
+    def __init__(self, problem: Problem) -> None:
         super().__init__(problem)
         self._deepest = (1 - self.z0) / self.z0
         root = arb(3).sqrt()

@@ -6,11 +6,13 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from reference.arithmetic.namespaces import BALL
+from reference.declaration import Form
 from reference.problem import APART
 from reference.problems.polar.bodies import body_of
 from reference.problems.polar.carlson import Carlson
 from reference.problems.polar.central import CentralBrachistochrone
 from reference.problems.polar.equations import POINT_MASS
+from reference.problems.polar.orbits import PointMassRadii
 from reference.problems.polar.quantities import ROWS
 from reference.problems.polar.series import EQUAL, Limit, deep, shallow
 
@@ -19,6 +21,7 @@ if TYPE_CHECKING:
     from fractions import Fraction
 
     from reference.declaration import Row
+    from reference.orbits import Orbits
     from reference.problems.polar.equations import Field
 
 __all__ = ["PolarBrachistochrone"]
@@ -55,6 +58,11 @@ class PolarBrachistochrone(CentralBrachistochrone):
     rows: ClassVar[tuple[Row, ...]] = ROWS
     field: ClassVar[Field] = POINT_MASS
     extremal = Carlson
+    form: ClassVar[Form] = Form(
+        "time",
+        "in time",
+        "z'' = -1/(2 z^2) + kappa (2 z^-5 - 3 z^-4 + z^-3), phi' = sqrt(kappa) (1 - z)/z^3, from rest at z = 1",
+    )
 
     def __init__(
         self, z0: Any = None, end: Any = None, r0: Any = None, gm: Any = None, body: str | None = None
@@ -70,6 +78,9 @@ class PolarBrachistochrone(CentralBrachistochrone):
 
     def __repr__(self) -> str:
         return f"PolarBrachistochrone({self._spelled('r0', 'gm')})"
+
+    def orbits(self) -> Orbits:
+        return PointMassRadii(self)
 
     @property
     def unit(self) -> tuple[Fraction, Fraction] | None:

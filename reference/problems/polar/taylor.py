@@ -31,7 +31,7 @@ ZERO, ONE = Fraction(0), Fraction(1)
 class System:
     """An equation, its start and its parameter: what a flow is of."""
 
-    derivative: Callable[[Arithmetic, Sequence[Any], dict[str, Any]], tuple[Any, ...]]
+    derivative: Callable[[Any, Any, Sequence[Any], dict[str, Any]], tuple[Any, ...]]
     state_names: tuple[str, ...]
     start: tuple[Fraction, ...]
     parameters: dict[str, Fraction]
@@ -43,17 +43,17 @@ class Equations:
     def __init__(self, field: Field) -> None:
         self._field = field
 
-    def motion(self, m: Arithmetic, y: Sequence[Any], p: dict[str, Any]) -> tuple[Any, ...]:
+    def motion(self, m: Arithmetic, t: Any, y: Sequence[Any], p: dict[str, Any]) -> tuple[Any, ...]:
         """(z, z', phi)' in tau."""
         acceleration, turn = self._field.motion(m, y[0], p["kappa"])
         return y[1], acceleration, turn
 
-    def curve(self, m: Arithmetic, y: Sequence[Any], p: dict[str, Any]) -> tuple[Any, ...]:
+    def curve(self, m: Arithmetic, t: Any, y: Sequence[Any], p: dict[str, Any]) -> tuple[Any, ...]:
         """(psi, phi, tau)' in psi."""
         cosine2 = m.cos(y[0] / 2) * m.cos(y[0] / 2)
         return m.number(ONE), *self._field.rates(m, p["z0"], 1 - cosine2, cosine2)
 
-    def bead(self, m: Arithmetic, y: Sequence[Any], p: dict[str, Any]) -> tuple[Any, ...]:
+    def bead(self, m: Arithmetic, t: Any, y: Sequence[Any], p: dict[str, Any]) -> tuple[Any, ...]:
         """(s, s')' in tau on a straight line at the angle beta with the radius, z^2 = 1 - 2 s cos(beta) + s^2."""
         cosine = p["cosine"]
         return y[1], (cosine - y[0]) * self._field.pull(m.sqrt(1 - y[0] * (2 * cosine - y[0])))

@@ -12,6 +12,7 @@ from reference.arithmetic.exact import exact, rational_root
 from reference.problem import APART
 from reference.problems.polar.bodies import body_of
 from reference.problems.polar.central import CentralBrachistochrone
+from reference.problems.polar.orbits import TunnelRadii
 from reference.problems.polar.quantities import Definitions, rows_of
 from reference.problems.tunnel.equations import UNIFORM_BALL, Hypocycloid
 
@@ -20,6 +21,7 @@ if TYPE_CHECKING:
     from fractions import Fraction
 
     from reference.declaration import Row
+    from reference.orbits import Orbits
     from reference.problems.polar.equations import Field
 
 __all__ = ["ROWS", "Tunnel"]
@@ -81,6 +83,14 @@ class Tunnel(CentralBrachistochrone):
 
     def __repr__(self) -> str:
         return f"Tunnel({self._spelled('r0', 'g')})"
+
+    def orbits(self) -> Orbits:
+        return TunnelRadii(self)
+
+    @property
+    def equation(self) -> str:
+        """Of z and phi, from rest at the surface."""
+        return "z'' = -z + kappa (1 - z^4)/z^3, phi' = sqrt(kappa) (1 - z^2)/z^2, from rest at z = 1"
 
     @property
     def unit(self) -> tuple[Fraction, Fraction] | None:
