@@ -8,14 +8,14 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from compare.claims.checking import check
     from compare.files.score import score
-    from compare.study import energy_drift, error_vs_n
+    from compare.scored import energy_drift, error_vs_n
 
 __all__ = ["check", "energy_drift", "error_vs_n", "score"]
 
 _HOMES = {
     "check": "compare.claims.checking",
-    "energy_drift": "compare.study",
-    "error_vs_n": "compare.study",
+    "energy_drift": "compare.scored",
+    "error_vs_n": "compare.scored",
     "score": "compare.files.score",
 }
 

@@ -119,8 +119,8 @@ def _study(request: Request, progress: Callable[[str], None] | None) -> Any:
     """The study of a family, on a process pool where that is worth it."""
     from reference.command.executors import processes
 
-    home, others = f"compare.studies.{request.command}", (os.cpu_count() or 1) - 1
-    options = {**request.options, "traces": request.plots, "progress": progress}
+    home, others = "compare.study", (os.cpu_count() or 1) - 1
+    options = {**request.options, "family": request.family, "traces": request.plots, "progress": progress}
     if not others or sum(options.get("n", [WORTH_PROCESSES])) < WORTH_PROCESSES:
         return import_module(home).study(**options)
     with processes(others) as executor:

@@ -5,28 +5,25 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from compare.claims import options as judge
-from compare.files import options as submission
+from compare.claims import options as claims
+from compare.files import options as files
+from compare.options import FamilyOptions
 from compare.report import options as report
-from compare.show.study import FORMATS
+from compare.show.render import FORMATS
 from compare.solvers import options as solvers
 from compare.sources.errata import options as errata
 from compare.sources.published import options as published
-from compare.studies import options as studies
 from reference.command.terminal import Parser, one_of
 
 if TYPE_CHECKING:
     import argparse
-    from collections.abc import Callable, Sequence
+    from collections.abc import Sequence
+
+    from reference.family import Family
 
 __all__ = ["COMMANDS", "Request", "parse"]
 
 COMMANDS = {
-    "pendulum": "score integrators on the pendulum: error against N, observed order, energy drift",
-    "brachistochrone": "score them on the cycloid of quickest descent: as a motion, and as a curve dx/dy",
-    "tautochrone": "score them on Huygens' pendulum: by its angle, and by its arc length",
-    "descent": "score them on the descent along a curve without friction",
-    "polar": "score them on the brachistochrone of a point mass: in time, in z and in psi",
     "list": "list the methods: family, order, stages, source",
     "show": "show a method: its tableau or its flows, its proven order, its properties",
     "report": "one page of work and precision: methods and solvers over problems and amplitudes",
@@ -36,22 +33,22 @@ COMMANDS = {
     "score": "judge a file of numbers from any code against the proven truth",
     "check": "measure whether your integrator is what it claims to be",
 }
-
-_ROOMS: dict[str, Any] = {
-    **studies.ROOMS,
+"""Besides these every family of problems has a command, in which methods are scored on it."""
+_OPTIONS: dict[str, Any] = {
     "solvers": solvers,
     "report": report,
-    "check": judge,
+    "check": claims,
     "errata": errata,
     "published": published,
+    "score": files,
 }
-"""Commands whose options stand in a room of their own."""
+"""Where the options of a command stand."""
 _SHOWN = tuple(form for form in FORMATS if form != "csv")
 _FORMATS_HELP, _SHOWN_HELP = f"{', '.join(FORMATS)} (default text)", f"{', '.join(_SHOWN)} (default text)"
 _MISTAKE = "A mistake is one sentence on stderr and exit code 2."
 _EPILOG = f"A number is read as binary64, as in a program, or with --exact as written.  {_MISTAKE}"
-_NUMBERS = frozenset({*studies.ROOMS, "solvers", "score"})
-"""Commands that take exact numbers."""
+_WITHOUT_NUMBERS = frozenset({"list", "show", "report", "published", "errata", "check"})
+"""Commands that take no exact numbers."""
 
 
 @dataclass(frozen=True)
@@ -59,7 +56,8 @@ class Request:
     """What a command line asks for.
 
     Attributes:
-        command: one of COMMANDS.
+        command: one of COMMANDS, or that of a family.
+        family: the family of the problems that methods are scored on, or None.
         options: arguments of the study, only those that were given; the fields of a submission; the method
             shown; or the arguments of a check.
         form: one of the table formats.
@@ -69,6 +67,7 @@ class Request:
     """
 
     command: str
+    family: Family | None
     options: dict[str, Any]
     form: str
     out: str | None
@@ -83,14 +82,21 @@ def parse(words: Sequence[str]) -> Request:
         ValueError: it cannot be read; the sentence says what is accepted.
     """
     if not words:
-        raise ValueError(f"no command is given; {_alternatives(tuple(COMMANDS))} is accepted.")
-    known = _parser(words).parse_args(words)
-    read: dict[str, Callable[[argparse.Namespace], dict[str, Any]]]
-    read = {"score": submission.options, "show": _shown_method}
-    read |= {command: room.options for command, room in _ROOMS.items()}
+        names = (*_families(), *COMMANDS)
+        raise ValueError(f"no command is given; {_alternatives(names)} is accepted.")
+    families = {} if words[0] in COMMANDS else _families(words[0])
+    known = _parser(words, families).parse_args(words)
+    family = families.get(known.command)
+    if family is not None:
+        options = FamilyOptions(family).options(known)
+    elif known.command in _OPTIONS:
+        options = _OPTIONS[known.command].options(known)
+    else:
+        options = _shown_method(known) if known.command == "show" else {}
     return Request(
-        command=known.command,
-        options=read[known.command](known) if known.command in read else {},
+        command=known.command if family is None else family.comparison.command,
+        family=family,
+        options=options,
         form=known.format,
         out=getattr(known, "out", None),
         plots=getattr(known, "plots", False),
@@ -98,17 +104,28 @@ def parse(words: Sequence[str]) -> Request:
     )
 
 
-def _parser(words: Sequence[str] = ("score",)) -> Parser:
+def _families(word: str = "") -> dict[str, Family]:
+    """The families by their commands; one of the user's own by the word that says where it is."""
+    from reference.problems.families import FAMILIES, find_family
+
+    if ":" in word:
+        return {word: find_family(word)}
+    return {family.comparison.command: family for family in FAMILIES}
+
+
+def _parser(words: Sequence[str], families: dict[str, Family]) -> Parser:
     """The parser of a command line; what takes time to import is left out where the words do not need it."""
     parser = Parser(prog="python -m compare", description="Score integrators.", epilog=_EPILOG)
     commands = parser.add_subparsers(dest="command", metavar="COMMAND")
-    for command, text in COMMANDS.items():
-        epilog = _EPILOG if command in _NUMBERS else _MISTAKE
-        one = commands.add_parser(command, help=text, description=text, epilog=epilog)
-        if command == "score":
-            submission.add_options(one, with_families=words[0] == command)
-        if command in _ROOMS:
-            _ROOMS[command].add_options(one)
+    for command, family in families.items():
+        told = family.comparison.help
+        one = commands.add_parser(command, help=told, description=told, epilog=_EPILOG)
+        FamilyOptions(family).add_options(one)
+    for command, told in COMMANDS.items():
+        epilog = _MISTAKE if command in _WITHOUT_NUMBERS else _EPILOG
+        one = commands.add_parser(command, help=told, description=told, epilog=epilog)
+        if command == words[0] and command in _OPTIONS:
+            _OPTIONS[command].add_options(one)
         if command == "show":
             one.add_argument("method", metavar="NAME", help="a method by its name or an alias; see 'list'")
             one.add_argument(

@@ -1,245 +1,235 @@
-"""Methods over problems over numbers of steps: the one run that every study and the public functions share."""
+"""The study of a family: its problems from their inputs, methods scored on them, and what the header says.
+
+One for every family: which inputs it has, which of them varies, which forms of its equations are marched and to where,
+the family declares itself.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from dataclasses import dataclass
-from functools import partial
-from typing import TYPE_CHECKING, Any, Literal
+import math
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from compare.march.precision import precision as find_precision
-from compare.measure.cases import case_of
-from compare.measure.order_fit import fit_order
-from compare.measure.scores import GROWTH_SAMPLES, Found, score
-from compare.measure.truth import SAMPLES, Course
-from compare.measure.wanted import DEFAULT_SCORES, EXTRAS, chosen_scores
-from compare.methods import DEFAULT, METHODS, find
-from compare.methods.kinds.compensated import compensate
+from compare.march.march import INLINE_SINE, march
+from compare.measure.records import Study, Trace
+from compare.measure.truth import Course
+from compare.scored import fits, score_all, some
+from reference import __version__
+from reference.arithmetic.compiler import hy
 from reference.arithmetic.exact import as_number, exact
-from reference.arithmetic.underflow import require_gradual
-from reference.command.sharing import shared
-from reference.problem import Problem
+from reference.family import Family
+from reference.names import unknown
+from reference.problems.families import find_family
+from reference.routes.agreement import ROUTES
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
-    from concurrent.futures import Executor
+    from collections.abc import Sequence
     from fractions import Fraction
 
     from compare.march.precision import Precision
-    from compare.measure.records import Case, Cell, Drift, FittedOrder
-    from compare.methods.kinds.one_step import Method
+    from compare.scored import Scored
+    from reference.family import End, Input, Marched
+    from reference.problem import Problem
 
-__all__ = ["DEFAULT_N", "Scored", "energy_drift", "error_vs_n", "named", "score_all", "some"]
+__all__ = ["TRACE_N", "problems_of", "study"]
 
-DEFAULT_N = tuple(2**k for k in range(7, 21))
-MAX_N = 10**10
-ALL = "all"
-"""What asks for every method."""
-
-
-@dataclass(frozen=True)
-class Scored:
-    """The scores of one run: in order of method, then problem, then N.
-
-    Attributes:
-        methods: those that were asked for.
-        problems: the problems, each with its end in ``t_ends``.
-        scores: which were asked for, of ``compare.measure.wanted.SCORES``.
-        samples: at how many of its steps a march is compared, at most.
-        found: records by the name of their table.
-        left_out: methods that do not fit a problem, by the problem's label.
-    """
-
-    methods: tuple[Method, ...]
-    problems: tuple[Problem, ...]
-    t_ends: tuple[Fraction, ...]
-    fmt: Precision
-    scores: tuple[str, ...]
-    samples: int
-    found: Found
-    left_out: dict[str, tuple[str, ...]]
-
-    @property
-    def cells(self) -> tuple[Cell, ...]:
-        """The errors."""
-        return tuple(self.found["error_vs_n"])
-
-    @property
-    def drifts(self) -> tuple[Drift, ...]:
-        """The drifts of what is conserved."""
-        return tuple(self.found["energy_drift"])
-
-    @property
-    def cases(self) -> tuple[Case, ...]:
-        """The problems in a few words."""
-        return tuple(map(case_of, self.problems))
-
-    @property
-    def orders(self) -> tuple[FittedOrder, ...]:
-        """A fitted order for each method and problem."""
-        pairs = ((method, case) for method in self.methods for case in self.cases)
-        groups = (
-            (method, [cell for cell in self.cells if (cell.method, cell.case) == (method.name, case)])
-            for method, case in pairs
-        )
-        return tuple(fit_order(method, cells) for method, cells in groups if cells)
-
-    def asked(self, name: str) -> tuple[Any, ...] | None:
-        """The records of a score that is not always there; None where it was not asked for."""
-        return tuple(self.found[name]) if name in self.scores else None
+LEAST_N = 128
+TRACE_N = 256
+"""Of the numbers of steps that are asked for, trajectories have that nearest to this one."""
 
 
-def error_vs_n(problem: Problem, methods: Sequence[str] | None = None, **options: Any) -> tuple[Cell, ...]:
-    """Return the error of methods on a problem at each number of steps; options as for ``score_all``."""
-    return score_all([problem], methods, **options).cells
-
-
-def energy_drift(problem: Problem, methods: Sequence[str] | None = None, **options: Any) -> tuple[Drift, ...]:
-    """Return the energy drift of methods on a problem at each number of steps; options as for ``score_all``."""
-    return score_all([problem], methods, **options).drifts
-
-
-def score_all(
-    problems: Sequence[Problem],
-    methods: Sequence[str] | None = None,
-    n: Sequence[int] = DEFAULT_N,
-    t_end: Any = 10.0,
-    precision: str = "float64",
-    executor: Executor | None = None,
-    progress: Callable[[str], None] | None = None,
-    *,
-    compensated: bool | Literal["beside"] = False,
-    scores: Sequence[str] = DEFAULT_SCORES,
-) -> Scored:
-    """March methods over 0 <= t <= t_end of each problem in each number of steps, and score them.
-
-    A method that needs positions and momenta, or a conserved quantity, is left out where the problem has none.
+def study(family: Family | str, form: Sequence[str] | None = None, *, traces: bool = False, **given: Any) -> Study:
+    """Score methods on the problems of a family.
 
     Args:
-        problems: problems of any families.
-        methods: names or aliases, or "all" for every one; ``compare.methods.DEFAULT`` if None.
-        n: numbers of steps, each a positive integer.
-        t_end: end of the march, in s or the problem's own unit; or a list of one for each problem.
-        precision: a format of ``compare.march.precision``.
-        executor: where the methods are marched, such as a process pool; in this process if None.
-        progress: called with each method's name when it is done.
-        compensated: whether every step's additions to the state are compensated for rounding; "beside" marches each
-            method both ways.
-        scores: what is scored, of ``compare.measure.wanted.SCORES``.
+        family: the family, its name, or the name of its command.
+        form: which forms of its equations are marched, of those that its ``comparison`` has; all if None.
+        traces: whether to keep trajectories for plots, in that of the numbers of steps which is nearest to TRACE_N.
+        given: inputs of the family by name, of which the ``varied`` one is a sequence; the ends of marches by name; and
+            options of ``compare.scored.score_all``.
 
     Raises:
-        ValueError: an argument is outside its range, a name unknown, or no method fits any problem.
+        ValueError: an argument is outside its range, or a name unknown.
         TypeError: an argument is of the wrong kind.
-        UnderflowModeError: the processor takes subnormal numbers for zero.
     """
-    require_gradual("a comparison")
-    if not all(isinstance(problem, Problem) for problem in problems):
-        raise TypeError(f"problems holds a {type(problems[0]).__name__}; problems such as Pendulum(1.0) are accepted.")
-    fmt, wanted = find_precision(precision), chosen_scores(some(scores, "scores"))
-    chosen = named(methods)
-    if compensated:
-        twins = [(compensate(method),) if compensated is True else (method, compensate(method)) for method in chosen]
-        chosen = tuple(method for both in twins for method in both)
-    ends = _ends(t_end, len(problems))
-    samples = GROWTH_SAMPLES if "growth" in wanted else SAMPLES
-    counts = _step_counts(n)
-    courses = [
-        Course(problem, k, end, fmt, samples) for problem, end in zip(problems, ends, strict=True) for k in counts
-    ]
-    for course in courses:
-        course.truth, course.neighbour.truth, course.reach  # noqa: B018 - computed once, before processes share it
-    fitting = {method.name: [course for course in courses if fits(method, course.problem)] for method in chosen}
-    if not any(fitting.values()):
-        raise ValueError(f"none of {', '.join(fitting)} fits {problems[0]!r}; others, such as rk4, are accepted.")
-    results = _in_order_of_work(chosen, fitting, (fmt, wanted), executor, progress)
-    tables = ("error_vs_n", "energy_drift", *(name for name in wanted if name in EXTRAS))
-    found = {table: [record for method in chosen for record in results[method.name][table]] for table in tables}
-    left_out = {
-        case_of(problem).label: tuple(method.name for method in chosen if not fits(method, problem))
-        for problem in problems
-    }
-    return Scored(chosen, tuple(problems), ends, fmt, wanted, samples, found, left_out)
+    one = family if isinstance(family, Family) else family_of(family)
+    comparison = one.comparison
+    forms = _forms(one, form)
+    inputs = {name: given.pop(name) for name in (comparison.varied, *comparison.inputs) if name in given}
+    ends = {end.name: given.pop(end.name) for end in _ends(forms) if end.name in given}
+    bases = problems_of(one, inputs)
+    marched: list[Problem] = []
+    lengths: list[Fraction] = []
+    header = _inputs_shown(one, inputs, bases)
+    for marching in forms.values():
+        problems = [marching.problem(base) for base in bases]
+        own = [marching.end.of(problem, ends.get(marching.end.name)) for problem in problems]
+        shown = [as_number(marching.end.shown(*pair)) for pair in zip(problems, own, strict=True)]
+        header.setdefault(marching.end.name, shown if marching.end.each else shown[0])
+        marched += problems
+        lengths += own
+    counts = [1 << k for k in range(LEAST_N.bit_length() - 1, comparison.largest.bit_length())]
+    scored = score_all(marched, **{"n": counts, **given, "t_end": lengths})
+    kept, exact_orbits = _traces(scored) if traces else ((), ())
+    return Study(
+        problem=comparison.command,
+        parameters={**header, "samples": scored.samples},
+        reference={
+            "version": __version__,
+            "routes": ["enclosure", *ROUTES],
+            "definition": _definition(marched),
+            "truth": "the state at exactly t = n h, proven correctly rounded; h is t_end/N rounded to the format",
+        },
+        engine={**_engine(scored.fmt), **_notes(scored)},
+        cases=scored.cases,
+        error_vs_n=scored.cells,
+        order=scored.orders,
+        energy_drift=scored.drifts,
+        scores=scored.scores,
+        phase=scored.asked("phase"),
+        growth=scored.asked("growth"),
+        period=scored.asked("period"),
+        defects=scored.asked("defects"),
+        traces=kept,
+        exact=exact_orbits,
+    )
 
 
-def named(methods: Sequence[str] | None) -> tuple[Method, ...]:
-    """The methods of these names or aliases, each once; "all" stands for every one, and None for the default ones.
+def family_of(command: str) -> Family:
+    """The family of this name, or whose command has it.
 
     Raises:
-        ValueError: a name is unknown, or there is none.
-        TypeError: ``methods`` is one name.
+        ValueError: there is none.
+        FileNotFoundError, ImportError: the user's module that it names cannot be imported.
     """
-    if methods is None:
-        return DEFAULT
-    found = (METHODS if str(name).strip().lower() == ALL else (find(name),) for name in some(methods, "methods"))
-    return tuple(dict.fromkeys(method for several in found for method in several))
+    from reference.problems.families import FAMILIES
+
+    known = {family.comparison.command: family for family in FAMILIES}
+    return known[command] if command in known else find_family(command)
 
 
-def fits(method: Method, problem: Problem) -> bool:
-    """Whether the problem has what the method needs: positions apart from momenta, or a conserved quantity."""
-    if method.separable_only and not problem.positions:
-        return False
-    return method.family != "conservative" or bool(problem.invariants)
-
-
-def _ends(t_end: Any, count: int) -> tuple[Fraction, ...]:
-    """The end of the march of each problem."""
-    listed = list(t_end) if isinstance(t_end, (list, tuple)) else [t_end] * count
-    if len(listed) != count:
-        raise ValueError(f"t_end has {len(listed)} numbers for {count} problems; one for each is accepted.")
-    ends = tuple(exact(end, "t_end") for end in listed)
-    for end in ends:
-        if end <= 0:
-            raise ValueError(f"t_end is {as_number(end)}; a positive number is accepted.")
-    return ends
-
-
-def some(values: Any, name: str) -> list[Any]:
-    """``values`` as a list, if it is a sequence with something in it.
+def problems_of(family: Family, inputs: dict[str, Any]) -> list[Problem]:
+    """The problems of a family: one for each value of the input that varies.
 
     Raises:
-        TypeError: it is a string or one value.
-        ValueError: it is empty.
+        ValueError: an input is unknown or outside its range, or two problems are the same to a double's precision.
     """
-    if isinstance(values, (str, bytes)) or not isinstance(values, Iterable):
-        raise TypeError(f"{name} is {values!r}; a sequence such as [{values!r}] is accepted.")
-    found = list(values)
-    if not found:
-        raise ValueError(f"{name} is empty; at least one is accepted.")
+    comparison = family.comparison
+    accepted = (comparison.varied, *comparison.inputs)
+    for name in inputs:
+        if name not in accepted:
+            raise ValueError(unknown("input", name, accepted))
+    values = some(inputs.get(comparison.varied, comparison.values), comparison.varied)
+    others = {name: value for name, value in inputs.items() if name != comparison.varied and value is not None}
+    problems = [family.problem(**{comparison.varied: value}, **others) for value in values]
+    told = [tuple(value for value, _ in problem.inputs.values()) for problem in problems]
+    if len(set(told)) < len(told):
+        precision = "" if family.input(comparison.varied).kind == "text" else ", to a double's precision"
+        raise ValueError(f"{comparison.varied} has one {comparison.what} twice{precision}; each is accepted once.")
+    return problems
+
+
+def _forms(family: Family, wanted: Sequence[str] | None) -> dict[str, Marched]:
+    """The forms of a family's equations that are wanted, each once, in their order.
+
+    Raises:
+        ValueError: one is unknown.
+    """
+    known = dict(family.comparison.forms)
+    names = list(known) if wanted is None else some(wanted, "form")
+    for name in names:
+        if name not in known:
+            raise ValueError(unknown("form", str(name), known))
+    return {name: marching for name, marching in known.items() if name in names}
+
+
+def _ends(forms: dict[str, Marched]) -> list[End]:
+    return [marching.end for marching in forms.values()]
+
+
+def _inputs_shown(family: Family, inputs: dict[str, Any], problems: Sequence[Problem]) -> dict[str, Any]:
+    """The inputs as the header gives them: those that were given, and the defaults of those that need one."""
+    comparison, wanted = family.comparison, family.input(family.comparison.varied)
+    if wanted.kind == "text":
+        varied = [next(iter(problem.inputs.values()))[0] for problem in problems]
+    else:
+        varied = [_shown(wanted, value) for value in inputs.get(comparison.varied, comparison.values)]
+    found: dict[str, Any] = {comparison.varied: varied}
+    for name in comparison.inputs:
+        other = family.input(name)
+        value = inputs.get(name, None if other.default is None else float(other.default))
+        if value is not None:
+            found[name] = _shown(other, value)
     return found
 
 
-def _step_counts(n: Sequence[int]) -> list[int]:
-    for count in some(n, "n"):
-        if isinstance(count, bool) or not isinstance(count, (int, np.integer)) or not 0 < count <= MAX_N:
-            raise ValueError(f"n is {count!r}; a positive integer up to {MAX_N} is accepted.")
-    return sorted({int(count) for count in n})
+def _shown(wanted: Input, value: Any) -> Any:
+    """A value of an input as the number, the pair of numbers or the text that it is."""
+    if wanted.kind == "text":
+        return value
+    if wanted.kind == "pair":
+        return tuple(as_number(exact(part, wanted.name)) for part in value)
+    return as_number(exact(value, wanted.name))
 
 
-def _score(task: tuple[Method, list[Course]], fmt: Precision, wanted: Sequence[str]) -> Found:
-    return score(*task, fmt, wanted)
+def _definition(problems: Sequence[Problem]) -> str:
+    """The equation in a line, or one for each form."""
+    forms = dict.fromkeys(problem.form for problem in problems)
+    return "; ".join(f"{form.name}: {form.equation}" for form in forms if form) or problems[0].equation
 
 
-def _in_order_of_work(
-    methods: Sequence[Method],
-    courses: dict[str, list[Course]],
-    asked: tuple[Precision, Sequence[str]],
-    executor: Executor | None,
-    progress: Callable[[str], None] | None,
-) -> dict[str, Found]:
-    """Each method's records, the longest marches begun first.
+def _notes(scored: Scored) -> dict[str, Any]:
+    """What was not marched, what is lacking to be scored, and why."""
+    where: dict[tuple[str, ...], list[str]] = {}
+    for label, names in scored.left_out.items():
+        if names:
+            where.setdefault(names, []).append(label)
+    notes = [f"{', '.join(names)} ({'; '.join(labels)})" for names, labels in where.items()]
+    lacking = {case.label: {score: why for score, why in case.lacks if score in scored.scores} for case in scored.cases}
+    found: dict[str, Any] = {}
+    if notes:
+        found["left out"] = "what splits kicks from drifts, or keeps an energy: " + "; ".join(notes)
+    if any(lacking.values()):
+        found["lacking"] = {label: scores for label, scores in lacking.items() if scores}
+    return found
 
-    Processes, not threads: a call of a compiled block is so short that threads would spend their time handing over the
-    interpreter's lock.
-    """
-    by_work = sorted(
-        methods, key=lambda method: (method.family != "implicit", -method.evaluations(1)[0], -method.order)
+
+def _traces(scored: Scored) -> tuple[tuple[Trace, ...], tuple[Trace, ...]]:
+    """Every method's trajectory on every problem, and the exact one at the same times."""
+    pairs = zip(scored.problems, scored.t_ends, strict=True)
+    asked = {cell.n for cell in scored.cells}
+    n = min(asked, key=lambda count: (abs(math.log(count / TRACE_N)), count))
+    courses = [Course(problem, n, end, scored.fmt, TRACE_N) for problem, end in pairs]
+    kept = []
+    for method in scored.methods:
+        fitting = [course for course in courses if fits(method, course.problem)]
+        with np.errstate(over="ignore", invalid="ignore"):
+            marches = march(method, [course.lane for course in fitting], scored.fmt)
+            kept += [_trace(method.name, *found) for found in zip(fitting, [m.states for m in marches], strict=True)]
+    return tuple(kept), tuple(_trace("exact", course, course.truth[..., 0]) for course in courses)
+
+
+def _trace(name: str, course: Course, states: np.ndarray) -> Trace:
+    """A trajectory with its start put before it."""
+    start = [float(value) for value in course.problem.start]
+    drifts = course.drifts(states)
+    return Trace(
+        method=name,
+        n=course.n,
+        case=course.case,
+        time=np.array([0.0, *(float(time) for time in course.times)]),
+        states=np.vstack([start, states.astype(np.float64)]),
+        drifts=np.hstack([np.zeros((len(drifts), 1)), drifts]),
     )
-    tasks = [(method, courses[method.name]) for method in by_work]
-    scores: dict[str, Found] = {}
-    for (method, _), found in shared(tasks, partial(_score, fmt=asked[0], wanted=asked[1]), executor):
-        scores[method.name] = found
-        if progress is not None:
-            progress(method.name)
-    return scores
+
+
+def _engine(fmt: Precision) -> dict[str, Any]:
+    return {
+        "precision": fmt.name,
+        "bits": fmt.bits,
+        "compiler": f"heyoka {hy.__version__}",
+        "sine": f"heyoka's vector library; from {INLINE_SINE:.0e} evaluations in a march, inlined (compare.march.sine)",
+        "contraction": "products and sums may be fused, so rounding differs from one processor to another; what it may "
+        "change is not printed",
+    }

@@ -75,6 +75,7 @@ def _add_workers(parser: argparse.ArgumentParser) -> None:
 
 
 def _add_at(commands: argparse._SubParsersAction[Parser]) -> None:
+    from reference.command.at import METAVARS
     from reference.problems.families import FAMILIES
 
     at = commands.add_parser("at", help="print proven values at one time, now")
@@ -87,7 +88,7 @@ def _add_at(commands: argparse._SubParsersAction[Parser]) -> None:
                 f"--{asked.name}",
                 required=asked.default is None and not asked.optional,
                 default=asked.default,
-                metavar=asked.metavar,
+                metavar=METAVARS[asked.kind],
                 help=f"{asked.help}, in {asked.units}{default}" if asked.units else f"{asked.help}{default}",
             )
         parser.add_argument("--digits", default="50", metavar="N", help="significant digits (default: 50)")
@@ -104,9 +105,7 @@ def _at(asked: argparse.Namespace) -> int:
     digits = at.digits_count(asked.digits)
     given = {wanted: getattr(asked, wanted.name) for wanted in family.inputs}
     inputs = {
-        wanted.name: wanted.read(wanted.name, text, as_written=asked.exact)
-        for wanted, text in given.items()
-        if text is not None
+        wanted.name: at.read(wanted, text, as_written=asked.exact) for wanted, text in given.items() if text is not None
     }
     found = at.quantities(family, inputs)
     if asked.format == "json":

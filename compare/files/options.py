@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from compare.files.columns import asked_columns
 from compare.files.lines import Passed
-from compare.show.study import FORMATS
+from compare.show.render import FORMATS
 from reference.command.terminal import one_of
 from reference.names import short
 
@@ -20,8 +20,8 @@ SHOWN_ROWS = 24
 SETTINGS = ("file", "problem", "columns", "skip", "comment", "rows", "exact", "format", "quiet", "command")
 
 
-def add_options(parser: argparse.ArgumentParser, *, with_families: bool) -> None:
-    """Add them to a parser; those of the families of problems take time, and are left out where nobody asks."""
+def add_options(parser: argparse.ArgumentParser) -> None:
+    """Add them to a parser, the inputs of all families among them."""
     parser.add_argument("file", metavar="FILE", help="CSV, JSON, NPY, NPZ or HDF5; - reads text from standard input")
     parser.add_argument("--problem", default="pendulum", metavar="NAME", help="family of problems (default pendulum)")
     parser.add_argument("--columns", metavar="A,B,C", help="the file's names of the time and the state")
@@ -31,8 +31,6 @@ def add_options(parser: argparse.ArgumentParser, *, with_families: bool) -> None
     parser.add_argument("--exact", action="store_true", help="take parameters and times as written, not as doubles")
     parser.add_argument("--format", type=one_of("format", FORMATS), default="text", help=", ".join(FORMATS))
     parser.add_argument("--quiet", action="store_true", help="nothing on stderr but errors")
-    if not with_families:
-        return
     from compare.files.score import families
 
     texts: dict[str, str] = {}

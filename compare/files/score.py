@@ -29,8 +29,9 @@ from compare.files.show import csv_header, csv_rows, rendered
 from compare.files.text import STANDARD_INPUT, TextRows
 from compare.files.written import of_value
 from reference.arithmetic.exact import NO_SEQUENCES
+from reference.command import at
 from reference.names import unknown
-from reference.problems.families import FAMILIES
+from reference.problems.families import FAMILIES, find_family
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -40,7 +41,7 @@ if TYPE_CHECKING:
     from compare.files.record import Score
     from compare.files.scales import Point
     from compare.files.written import Written
-    from reference.command.at import Family
+    from reference.family import Family
     from reference.problem import Problem
 
 __all__ = ["SUFFIXES", "Rows", "Submission", "families", "judged", "score"]
@@ -242,10 +243,9 @@ def _problem(asked: Submission) -> Problem:
     Raises:
         ValueError: there is no such family, an input of it is missing or is none of its, or one is outside its range.
     """
-    known = {family.name: family for family in families()}
-    if asked.family not in known:
-        raise ValueError(unknown("problem", asked.family, known))
-    family = known[asked.family]
+    family = find_family(asked.family)
+    if family not in families() and ":" not in asked.family:
+        raise ValueError(unknown("problem", asked.family, [known.name for known in families()]))
     accepted = [wanted for wanted in family.inputs if not wanted.over]
     for name in asked.inputs:
         if name not in {wanted.name for wanted in accepted}:
@@ -256,7 +256,7 @@ def _problem(asked: Submission) -> Problem:
         raise ValueError(f"{', '.join(missing)} of the {family.name} is needed.")
     return family.problem(
         **{
-            wanted.name: wanted.read(wanted.name, text, as_written=asked.exact)
+            wanted.name: at.read(wanted, text, as_written=asked.exact)
             for wanted in accepted
             if (text := given[wanted.name]) is not None
         }

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from compare.report.families import family
+from compare.report.problems import reported_by
 from compare.report.table import cases
 from compare.show.plot import draw_curves, wide_figure
 from compare.show.plot_style import inks, saved, style
@@ -37,7 +37,7 @@ def files(report: Report) -> dict[str, bytes]:
 def names(point: WorkPoint) -> dict[str, str]:
     """The names of the figures of a point's problem, and their titles."""
     amplitude = point.amplitude if isinstance(point.amplitude, str) else repr(point.amplitude)
-    stem = f"{point.family}-{family(point.family).symbol}-{amplitude}"
+    stem = f"{point.family}-{reported_by(point.family).symbol}-{amplitude}"
     return {f"{stem}-{kind}": title for kind, (title, _, _) in FIGURES.items()}
 
 
@@ -50,7 +50,7 @@ def figures(report: Report) -> Iterator[tuple[str, Figure]]:
             for point in sorted(points, key=_effort):
                 if math.isfinite(point.max_error) and point.max_error > 0:
                     curves.setdefault(point.name, []).append(point)
-            units = family(points[0].family).error_units
+            units = reported_by(points[0].family).error_units
             error = f"largest error  [{units}]" if units else "largest error"
             figure, axes = wide_figure(f"{title}, {case}", top=0.92, error=error)
             draw_curves(axes, curves, ink, work)

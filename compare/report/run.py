@@ -20,14 +20,14 @@ from compare.march.precision import precision
 from compare.march.trace import TraceError
 from compare.measure.errors import SAMPLES, Course, score_errors
 from compare.methods import find
-from compare.report.families import FAMILIES, Amplitude, Family, family
+from compare.report.problems import reported, reported_by
 from compare.report.records import Report, WorkPoint
+from compare.scored import fits, named, some
 from compare.show.output import folder
 from compare.solvers.catalogue import SOLVERS, select
 from compare.solvers.score import score_solver
 from compare.solvers.solver import CALLS
 from compare.solvers.study import DEFAULT_LIMIT, DEFAULT_RTOL, facts, questions, tolerances
-from compare.study import fits, named, some
 from reference import __version__
 from reference.arithmetic.compiler import hy
 from reference.arithmetic.exact import positive
@@ -41,9 +41,11 @@ if TYPE_CHECKING:
 
     from compare.measure.records import Cell
     from compare.methods.kinds.one_step import Method
+    from compare.report.problems import Amplitude
     from compare.solvers.records import SolverCell
     from compare.solvers.solver import Question, Solver
     from reference.dataset.blocks import Partial
+    from reference.family import Reported
     from reference.problem import Problem
 
 __all__ = ["DEFAULT_N", "Kept", "Plan", "Task", "plan", "run", "work"]
@@ -102,7 +104,7 @@ class Task:
     @property
     def problem(self) -> Problem:
         """The problem itself."""
-        return family(self.family).build(self.amplitude)
+        return reported_by(self.family).problem(self.amplitude)
 
 
 def work(task: Task) -> tuple[WorkPoint, ...]:
@@ -213,27 +215,27 @@ def plan(
         ValueError: an argument is outside its range, or a name unknown.
         TypeError: an argument is of the wrong kind.
     """
-    families = FAMILIES if problems is None else tuple(family(name) for name in some(problems, "problems"))
+    kinds = reported(None if problems is None else some(problems, "problems"))
     marched = () if methods == () else named(methods)
     asked = SOLVERS if solvers is None else select(() if solvers == () else some(solvers, "solvers"))
     counts = tuple(sorted({positive(count, "n") for count in some(n, "n")}))
     settings = {"method": counts, "solver": tuple(tolerances(rtol))}
     tasks: list[Task] = []
     left_out: dict[str, list[str]] = {}
-    given = _given(families, amplitudes)
-    for one in families:
+    given = _given(list(kinds.values()), amplitudes)
+    for key, one in kinds.items():
         for amplitude in _amplitudes(one, given):
-            problem = one.build(amplitude)
-            end = t_end if one.end is None else float(one.end(problem))
+            problem = one.problem(amplitude)
+            end = float(one.end.of(problem, None)) if one.end.each else t_end
             question = next(questions(problem, end, rtol, max_evaluations))
             for name, kind, suits in _suited(question, marched, asked):
                 if suits:
-                    tasks.append(Task(one.name, amplitude, name, kind, settings[kind], question.end, max_evaluations))
+                    tasks.append(Task(key, amplitude, name, kind, settings[kind], question.end, max_evaluations))
                 else:
                     left_out.setdefault(one.label(amplitude), []).append(name)
     if not tasks:
         raise ValueError("there is nothing to report on: no method and no solver that is installed is asked for.")
-    cases = dict.fromkeys((family(task.family), task.amplitude, task.t_end) for task in tasks)
+    cases = dict.fromkeys((reported_by(task.family), task.amplitude, task.t_end) for task in tasks)
     parameters = {
         "problems": [one.label(amplitude) for one, amplitude, _ in cases],
         **_ends(cases, t_end),
@@ -244,10 +246,10 @@ def plan(
     return Plan(tuple(tasks), {s.package: s.install for s in asked if s.version is None}, left_out, parameters)
 
 
-def _ends(cases: Iterable[tuple[Family, Amplitude, float]], t_end: float) -> dict[str, Any]:
+def _ends(cases: Iterable[tuple[Reported, Amplitude, float]], t_end: float) -> dict[str, Any]:
     """Where marches end: all of those that go on for as long as they are asked to, and each that ends of itself."""
-    whole = [one for one, _, _ in cases if one.end is None]
-    ends = {one.label(amplitude): end for one, amplitude, end in cases if one.end is not None}
+    whole = [one for one, _, _ in cases if not one.end.each]
+    ends = {one.label(amplitude): end for one, amplitude, end in cases if one.end.each}
     return {**({"t_end": float(t_end)} if whole else {}), **({"ends": ends} if ends else {})}
 
 
@@ -259,22 +261,22 @@ def _suited(
     yield from ((s.name, "solver", s.solves(question)) for s in solvers if s.version is not None)
 
 
-def _given(families: Sequence[Family], amplitudes: Sequence[Amplitude] | None) -> tuple[Amplitude, ...]:
+def _given(kinds: Sequence[Reported], amplitudes: Sequence[Amplitude] | None) -> tuple[Amplitude, ...]:
     """The numbers and names that are asked for, each as a double or as it is.
 
     Raises:
-        ValueError: there is none, or one that no family takes.
+        ValueError: there is none, or one that no kind of problems takes.
     """
     given = () if amplitudes is None else some(amplitudes, "amplitudes")
-    taken = {one.named for one in families}
+    taken = {one.named for one in kinds}
     for amplitude in given:
         if isinstance(amplitude, str) not in taken:
             what = "names are accepted: they differ in a curve" if taken == {True} else "numbers are accepted"
-            raise ValueError(f"amplitudes has {amplitude!r}; of {', '.join(one.name for one in families)}, {what}.")
+            raise ValueError(f"amplitudes has {amplitude!r}; of {', '.join(one.name for one in kinds)}, {what}.")
     return tuple(amplitude if isinstance(amplitude, str) else float(amplitude) for amplitude in given)
 
 
-def _amplitudes(one: Family, given: Sequence[Amplitude]) -> Sequence[Amplitude]:
+def _amplitudes(one: Reported, given: Sequence[Amplitude]) -> Sequence[Amplitude]:
     """Those of a family: its own where none of those that are asked for is of its kind."""
     return [amplitude for amplitude in given if isinstance(amplitude, str) == one.named] or one.amplitudes
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from compare.report.families import family
+from compare.report.problems import reported_by
 from compare.show import text_table
 from compare.show.render import Tables
 from compare.show.text_table import Column, Grid, Section
@@ -45,7 +45,7 @@ def cases(report: Report) -> Iterator[tuple[str, list[WorkPoint]]]:
     """Each problem in words, with its points."""
     for name, amplitude in dict.fromkeys((point.family, point.amplitude) for point in report.points):
         points = [point for point in report.points if (point.family, point.amplitude) == (name, amplitude)]
-        yield family(name).label(amplitude), points
+        yield reported_by(name).label(amplitude), points
 
 
 def case_sections(report: Report, title: str, points: Sequence[WorkPoint]) -> Iterator[Section]:
@@ -69,7 +69,7 @@ def _costs(
 
     columns = Column("", left=True), *(Column(f"{target:.0e}") for target in TARGETS)
     rows = tuple((name, *(least(name, t) for t in TARGETS)) for name in dict.fromkeys(p.name for p in points))
-    units = family(points[0].family).error_units
+    units = reported_by(points[0].family).error_units
     whole = f"{title}: the least of those measured whose largest error{f', in {units},' if units else ''} is below"
     return Section(text_table.slug(title.lower()), whole, (Grid(columns, rows),), "\n".join(notes))
 
@@ -79,7 +79,7 @@ def closing(report: Report, width: int) -> Iterator[Section]:
     failures: dict[tuple[str, str], list[str]] = {}
     for point in report.points:
         if point.failure:
-            label = family(point.family).label(point.amplitude)
+            label = reported_by(point.family).label(point.amplitude)
             failures.setdefault((point.name, point.failure), []).append(label)
     failed = [(name, "; ".join(dict.fromkeys(where)), why) for (name, why), where in failures.items()]
     left_out = [(label, ", ".join(names)) for label, names in report.left_out.items()]

@@ -8,12 +8,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from compare.measure.errors import SAMPLES
+from compare.scored import some
 from compare.solvers.catalogue import SOLVERS, select
 from compare.solvers.events import event_of
 from compare.solvers.records import SolverEntry, SolverStudy
 from compare.solvers.score import Asked, events, score_solver
 from compare.solvers.solver import Question
-from compare.study import some
 from reference import Pendulum, __version__
 from reference.arithmetic.exact import as_number, exact, positive
 from reference.routes.agreement import ROUTES

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-from dataclasses import dataclass
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
@@ -15,18 +14,18 @@ if TYPE_CHECKING:
 
     from reference.certified import Certified
     from reference.constants import Constant
-    from reference.problem import Problem
+    from reference.family import Family, Input
 
 __all__ = [
     "DIGITS_LIMIT",
-    "Family",
-    "Input",
+    "METAVARS",
     "as_json",
     "as_text",
     "digits_count",
     "number",
     "pair",
     "quantities",
+    "read",
     "text",
 ]
 
@@ -69,40 +68,18 @@ def text(name: str, text: str, *, as_written: bool) -> str:
     return text
 
 
-@dataclass(frozen=True)
-class Input:
-    """Something that the command line asks for: its units, and its default as it would be typed.
+READERS: dict[str, Callable[..., Any]] = {"number": number, "pair": pair, "text": text}
+METAVARS = {"number": "NUMBER", "pair": "NUMBER,NUMBER", "text": "TEXT"}
+"""How the place of an input is shown in the usage."""
 
-    What is ``optional`` is left to the problem where it is not given.  ``read`` is how it is spelt; an input with
-    ``over`` is the argument of the rows over that.
+
+def read(wanted: Input, word: str, *, as_written: bool) -> Any:
+    """The word of an input as its value.
+
+    Raises:
+        ValueError: it spells none.
     """
-
-    name: str
-    units: str
-    help: str
-    default: str | None = None
-    optional: bool = False
-    read: Callable[..., Any] = number
-    over: str = ""
-
-    @property
-    def metavar(self) -> str:
-        """How its place is shown in the usage."""
-        return {number: "NUMBER", pair: "NUMBER,NUMBER", text: "TEXT"}[self.read]
-
-
-@dataclass(frozen=True)
-class Family:
-    """A family of problems as the command line knows it: its inputs, and the rows it prints.
-
-    A row that is asked once is always printed, another one where its argument is given.
-    """
-
-    name: str
-    help: str
-    problem: Callable[..., Problem]
-    inputs: tuple[Input, ...]
-    rows: tuple[str, ...]
+    return READERS[wanted.kind](wanted.name, word, as_written=as_written)
 
 
 def digits_count(text: str) -> int:

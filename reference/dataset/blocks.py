@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from reference.command.marked import Marked
-    from reference.family import Block
+    from reference.layout import Block
 
 __all__ = [
     "LIMBS",

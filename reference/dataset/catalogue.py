@@ -6,20 +6,16 @@ from typing import TYPE_CHECKING
 
 from reference.dataset.plan import Plan
 from reference.names import unknown
-from reference.problems.cycloid import family as cycloid
-from reference.problems.descent import family as descent
-from reference.problems.pendulum import family as pendulum
-from reference.problems.polar import family as polar
+from reference.problems.families import FAMILIES
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from reference.family import Group, Layout
+    from reference.layout import Group, Layout
 
 __all__ = ["LAYOUTS", "PROFILES", "plan"]
 
-FAMILIES = (pendulum, cycloid, descent, polar)
-LAYOUTS: tuple[Layout, ...] = tuple(layout for family in FAMILIES for layout in family.LAYOUTS)
+LAYOUTS: tuple[Layout, ...] = tuple(layout for family in FAMILIES for layout in family.layouts)
 
 
 def core() -> tuple[Group, ...]:

@@ -24,13 +24,13 @@ from typing import TYPE_CHECKING, Any
 from reference.arithmetic.exact import exact
 from reference.dataset.catalogue import LAYOUTS
 from reference.dataset.plan import Plan
-from reference.family import Group
+from reference.layout import Group
 from reference.names import is_grid_file, said, short, unknown
 
 if TYPE_CHECKING:
     from fractions import Fraction
 
-    from reference.family import Coordinate
+    from reference.layout import Coordinate
 
 __all__ = ["MAX_NUMBERS", "plan_from"]
 

@@ -40,7 +40,7 @@ from reference.names import is_grid_file, short, unknown
 
 if TYPE_CHECKING:
     from reference.dataset.schema import Array, Schema
-    from reference.family import Layout
+    from reference.layout import Layout
 
 __all__ = ["SIGNATURE", "inspect"]
 

@@ -14,12 +14,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from reference.arithmetic.binary64 import hexadecimal, in_order, nearest
-from reference.family import BLOCK_LENGTH
+from reference.layout import BLOCK_LENGTH
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from reference.family import Block, Group
+    from reference.layout import Block, Group
 
 __all__ = ["Plan", "monotonic"]
 

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     import os
 
     from reference.dataset.schema import Schema
-    from reference.family import Layout
+    from reference.layout import Layout
 
 __all__ = ["CORE_NAME", "Dataset", "Variable", "core_path", "load"]
 

@@ -11,13 +11,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from reference.arithmetic.binary64 import hexadecimal, shortest
-from reference.family import BLOCK_LENGTH
+from reference.layout import BLOCK_LENGTH
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping, Sequence
 
     from reference.declaration import Row
-    from reference.family import Component, Coordinate, Layout
+    from reference.layout import Component, Coordinate, Layout
 
 __all__ = [
     "ATTRIBUTE_LIMIT",

@@ -15,7 +15,7 @@ from reference.dataset.claims import decimal_fault, measurement_fault
 from reference.dataset.errors import DatasetError
 from reference.dataset.reader import load
 from reference.dataset.schema import ATTRIBUTE_LIMIT
-from reference.family import Group
+from reference.layout import Group
 from reference.routes.agreement import ROUTES, DisagreementError
 
 if TYPE_CHECKING:
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
     from reference.dataset.reader import Dataset
     from reference.declaration import Row
-    from reference.family import Block
+    from reference.layout import Block
 
 __all__ = ["Proof", "differs", "verify"]
 

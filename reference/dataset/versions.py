@@ -13,11 +13,12 @@ from reference.dataset.catalogue import LAYOUTS
 from reference.dataset.schema import ROOT, Schema
 from reference.problems.pendulum import family as pendulum
 from reference.problems.polar import family as polar
+from reference.problems.tunnel import family as tunnel
 from reference.routes.agreement import ROUTES
 
 if TYPE_CHECKING:
     from reference.declaration import Quantity, Row
-    from reference.family import Layout
+    from reference.layout import Layout
 
 __all__ = ["NEWEST", "SCHEMAS"]
 
@@ -49,8 +50,8 @@ SECOND = replace(
     version="2",
     layouts=(
         *_changed(LAYOUTS, replace(polar.BOUNDARY, index=None)),
-        _without_heights(polar.FAMILY),
-        _without_heights(polar.TUNNEL_FAMILY),
+        _without_heights(polar.EXTREMALS),
+        _without_heights(tunnel.HYPOCYCLOIDS),
     ),
     has_history=False,
     names_auxiliary=False,

@@ -41,7 +41,7 @@ if TYPE_CHECKING:
 
     from reference.dataset.plan import Plan
     from reference.dataset.schema import Array
-    from reference.family import Block, Group
+    from reference.layout import Block, Group
 
 __all__ = ["Sink", "Writer", "writing"]
 

@@ -16,7 +16,7 @@ from reference.dataset.blocks import compute
 from reference.dataset.catalogue import plan
 
 if TYPE_CHECKING:
-    from reference.family import Group
+    from reference.layout import Group
 
 
 def seconds(group: Group, row: str) -> float:

@@ -46,7 +46,7 @@ def line(name: str, periods: int) -> str:
     begin = time.perf_counter()
     errors = [np.max(np.abs(course.errors(one.states)[:, 0])) for course, one in zip(asked, found, strict=True)]
     proving = time.perf_counter() - begin
-    drifts = [one.max_drift / course.level for course, one in zip(asked, found, strict=True)]
+    drifts = [one.max_drifts[0] / course.scales[0] for course, one in zip(asked, found, strict=True)]
     each = seconds / (asked[0].n * len(asked)) * 1e9
     return (
         f"{name:10s}{periods:9d}{asked[0].n:11d}{seconds:9.2f}{each:9.2f}{proving:9.2f}{memory:6.0f}"

@@ -43,7 +43,7 @@ def ours(out: Path) -> None:
 
     with processes(max((os.cpu_count() or 1) - 1, 1)) as executor:
         executor.submit(import_module, "compare.study")  # as the command line does
-        from compare.study import score_all
+        from compare.scored import score_all
         from reference import Pendulum
 
         scored = score_all([Pendulum(amplitude) for amplitude in AMPLITUDES], METHODS, COUNTS, executor=executor)

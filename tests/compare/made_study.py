@@ -90,7 +90,7 @@ def _drifts(method: str, case: Case, n: tuple[int, ...]) -> list[Drift]:
     for count in n:
         h = 10.0 / count
         size = math.inf if method == "euler" and count == n[0] else constant * h**order
-        drifts.append(Drift(method, count, h, case, size, size / 2, -size / 10, size / 100))
+        drifts.append(Drift(method, count, h, case, "energy", size, size / 2, -size / 10, size / 100))
     return drifts
 
 
@@ -107,9 +107,9 @@ def _trace(method: str, case: Case) -> Trace:
     size = constant * 0.01**order
     grows = np.exp(size * time) if method == "euler" else np.ones_like(time)
     drift = grows**2 - 1 if method == "euler" else size * np.sin(3 * time) ** 2
-    return Trace(method, 1024, case, time, np.stack([theta * grows, omega * grows], axis=1), drift)
+    return Trace(method, 1024, case, time, np.stack([theta * grows, omega * grows], axis=1), drift[None])
 
 
 def _exact(case: Case) -> Trace:
     time, theta, omega = _orbit(case)
-    return Trace("exact", 0, case, time, np.stack([theta, omega], axis=1), np.zeros_like(time))
+    return Trace("exact", 0, case, time, np.stack([theta, omega], axis=1), np.zeros((1, len(time))))

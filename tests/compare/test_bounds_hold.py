@@ -19,7 +19,8 @@ from compare.measure.truth import Course
 from compare.methods import find
 from compare.show.digits import DOUBT, ROUNDING, decided, scientific, starred
 from reference import Pendulum, PolarBrachistochrone, Tunnel
-from reference.problems.paths import CycloidCurve, PolarByZ
+from reference.problems.cycloid.arc import CycloidCurve
+from reference.problems.polar.paths import PolarByZ
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

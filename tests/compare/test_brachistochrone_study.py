@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import math
+from functools import partial
 from itertools import pairwise
 
 import pytest
 
-from compare.studies.brachistochrone import study
+from compare import study as studies
+
+study = partial(studies.study, "brachistochrone")
 
 
 def test_the_motion_is_smooth_and_every_method_has_its_order() -> None:

@@ -16,6 +16,7 @@ from compare.measure.errors import Course, fit_order, score_method
 from compare.methods import find
 from compare.methods.conservative import AVF, CONSERVATIVE, GONZALEZ, PROJECTED_RK4
 from reference import Pendulum
+from reference.declaration import Invariant, StateSpace, Trial
 from reference.problem import Problem
 
 if TYPE_CHECKING:
@@ -31,7 +32,7 @@ def drifts(method: Method, n: int, fmt: Precision, problems: tuple[Problem, ...]
     """The largest drift after any step over ten seconds, relative to the energy above rest."""
     lanes = [Lane(problem, n, fmt.round(Fraction(10, n)), sample_steps(n, 16)) for problem in problems]
     starts = [float(fmt.number(StartInvariant(problem))) for problem in problems]
-    return [result.max_drift / start for result, start in zip(march(method, lanes, fmt), starts, strict=True)]
+    return [result.max_drifts[0] / start for result, start in zip(march(method, lanes, fmt), starts, strict=True)]
 
 
 @by_name
@@ -125,7 +126,11 @@ class RigidBody(Problem):
     """Euler's equations of a free body with moments of inertia 1, 2 and 3: three components, no canonical ones."""
 
     name: ClassVar[str] = "rigid body"
-    state_names: ClassVar[tuple[str, ...]] = ("a", "b", "c")
+    space: ClassVar[StateSpace] = StateSpace(
+        positions=("a", "b", "c"), angles=(), odd=("a", "b", "c"), along=None, scale="largest", independent="s"
+    )
+    invariants: ClassVar[tuple[Invariant, ...]] = (Invariant("energy", ("Energy", "(E - E0)/E0"), "start"),)
+    trial: ClassVar[Trial] = Trial(states=((-3.0, 3.0),) * 3, parameters={}, step=(0.01, 0.1))
     parameters: ClassVar[dict[str, Fraction]] = {}
     start: ClassVar[tuple[Fraction, ...]] = (Fraction(1), Fraction(-1, 2), Fraction(2))
 

@@ -14,7 +14,7 @@ from compare.__main__ import main
 from compare.sources.published.entry import reproduce
 from compare.sources.published.forms import CycloidByAngle, Form, forms
 from reference.arithmetic.namespaces import NUMPY
-from reference.problems.paths import CycloidCurve
+from reference.problems.cycloid.arc import CycloidCurve
 
 SINGULAR, SMOOTH = ("dx/dy", "dphi/dz"), ("dx/dtheta", "dphi/dpsi")
 

@@ -14,7 +14,7 @@ from compare.measure.truth import Course
 from compare.methods import find
 from reference import Descent, Pendulum, PolarBrachistochrone, Tautochrone
 from reference.problems.cycloid import CycloidalPendulum
-from reference.problems.paths import PolarByPsi
+from reference.problems.polar.paths import PolarByPsi
 
 if TYPE_CHECKING:
     from reference.problem import Problem

@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+from functools import partial
+
 import numpy as np
 import pytest
 
-from compare.studies.descent import study
+from compare import study as studies
+
+study = partial(studies.study, "descent")
 
 
 def test_the_curves_of_the_race_are_marched_to_their_orders() -> None:

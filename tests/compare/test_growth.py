@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from compare.measure.growth import exponent_of
-from compare.study import score_all
+from compare.scored import score_all
 from reference import Pendulum
 
 if TYPE_CHECKING:

@@ -13,9 +13,9 @@ from typing import Any
 import pytest
 
 from compare.march import march, trace
+from compare.scored import Scored, score_all
 from compare.show import digits
 from compare.show import study as table
-from compare.study import Scored, score_all
 from reference import Pendulum, PolarBrachistochrone, Tautochrone
 
 METHODS = ("euler", "heun", "verlet", "ruth3", "rk4", "yoshida4", "gauss4", "ab4", "yoshida6", "kahan_li8")

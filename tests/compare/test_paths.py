@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 import pytest
-from compare.march.aspects import conserves
 
 from compare import error_vs_n
 from compare.methods import find
@@ -16,7 +15,8 @@ from compare.methods.multistep import MULTISTEP
 from reference import Cycloid, PolarBrachistochrone
 from reference.arithmetic.namespaces import MPMATH, NUMPY
 from reference.arithmetic.precision import mp
-from reference.problems.paths import CycloidCurve, PolarByPsi, PolarByZ
+from reference.problems.cycloid.arc import CycloidCurve
+from reference.problems.polar.paths import PolarByPsi, PolarByZ
 
 if TYPE_CHECKING:
     from reference.problem import Problem
@@ -48,7 +48,7 @@ def test_a_curve_begins_at_zero_and_carries_its_coordinate(curve: Problem, place
     states = curve.state([0, *places])
     np.testing.assert_array_equal(states[0], np.zeros(len(curve.state_names)))
     np.testing.assert_array_equal(states[1:, -1], [float(Fraction(place)) for place in places])
-    assert not conserves(curve)
+    assert not curve.invariants
     assert curve.rate() == 0
 
 

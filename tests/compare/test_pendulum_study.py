@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 import math
+from functools import partial
 
 import numpy as np
 import pytest
 
+from compare import study as studies
 from compare.methods import DEFAULT
-from compare.studies.pendulum import study
 from reference import Pendulum
+
+study = partial(studies.study, "pendulum")
 
 
 def test_a_study_has_a_cell_a_drift_and_an_order_for_everything_asked() -> None:
@@ -35,11 +38,11 @@ def test_traces_start_at_the_start_and_the_exact_one_is_exact() -> None:
     assert [trace.method for trace in found.traces] == ["euler", "verlet"]
     (exact,) = found.exact
     for trace in (*found.traces, exact):
-        assert len(trace.time) == len(trace.states) == len(trace.drift) == 128 + 1
-        assert (trace.time[0], *trace.states[0], trace.drift[0]) == (0, 1, 0, 0)
+        assert len(trace.time) == len(trace.states) == trace.drifts.shape[1] == 128 + 1
+        assert (trace.time[0], *trace.states[0], trace.drifts[0][0]) == (0, 1, 0, 0)
     np.testing.assert_array_equal(exact.states, Pendulum(1.0).state(exact.time))
-    assert np.max(np.abs(exact.drift)) < 1e-14
-    assert found.traces[0].drift[-1] > 0.5
+    assert np.max(np.abs(exact.drifts)) < 1e-14
+    assert found.traces[0].drifts[0][-1] > 0.5
 
 
 def test_progress_is_told_each_method_once() -> None:

@@ -7,7 +7,7 @@ import itertools
 import math
 import re
 import xml.etree.ElementTree as ET
-from importlib import import_module
+from functools import partial
 
 import matplotlib as mpl
 import numpy as np
@@ -15,6 +15,7 @@ import pytest
 from made_study import METHODS, made_case, made_study
 from matplotlib.text import Text
 
+from compare import study as studies
 from compare.show import plot
 from compare.show.plot_style import inks, saved, spread, style
 
@@ -82,7 +83,7 @@ def test_numbers_that_a_logarithm_cannot_show_are_left_out():
     study = made_study(methods=("euler",))
     odd = (0.0, math.inf, math.nan)
     cells = [dataclasses.replace(study.error_vs_n[i], max_error=error) for i, error in enumerate(odd)]
-    trace = dataclasses.replace(study.traces[0], drift=np.full(401, math.nan))
+    trace = dataclasses.replace(study.traces[0], drifts=np.full((1, 401), math.nan))
     for kept in ((), study.error_vs_n[3:4], study.error_vs_n[3:]):
         sparse = dataclasses.replace(study, error_vs_n=(*cells, *kept), traces=(trace,))
         assert len(plot.files(sparse)) == 8
@@ -121,7 +122,7 @@ def test_an_orbit_that_does_not_move_is_drawn():
 
 def test_a_case_has_the_figures_of_what_it_has():
     study = made_study(methods=("verlet",))
-    bare = dataclasses.replace(CASE, drift=None, axes=(), step="", unit="", error="|x - exact|/max |x|")
+    bare = dataclasses.replace(CASE, invariants=(), axes=(), step="", unit="", error="|x - exact|/max |x|")
     cells = tuple(dataclasses.replace(cell, case=bare) for cell in study.error_vs_n)
     with style():
         found = dict(plot.figures(dataclasses.replace(study, cases=(bare,), error_vs_n=cells)))
@@ -148,7 +149,7 @@ STUDIES = {
 
 @pytest.fixture(scope="module", params=STUDIES)
 def drawn_study(request):
-    study = import_module(f"compare.studies.{request.param}").study
+    study = partial(studies.study, request.param)
     return study(methods=STUDIES[request.param], n=(32, 100), traces=True, compensated=True)
 
 

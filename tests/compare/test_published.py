@@ -26,7 +26,7 @@ from compare.sources.published.source import figure, figures, sources, tables
 from reference import Pendulum
 from reference.arithmetic.namespaces import NUMPY
 from reference.arithmetic.precision import mp
-from reference.problems.paths import CycloidCurve
+from reference.problems.cycloid.arc import CycloidCurve
 from reference.problems.pendulum.equations import energy
 
 FLOAT64 = precision("float64")

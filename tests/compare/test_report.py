@@ -19,8 +19,8 @@ from compare.march.precision import precision
 from compare.measure.errors import Course
 from compare.methods import METHODS, find
 from compare.report import run as running
-from compare.report.families import family
 from compare.report.page import files, page
+from compare.report.problems import reported_by
 from compare.report.records import Report, WorkPoint
 from compare.report.run import Kept, Task, plan, run, work
 from compare.report.table import TABLES, sections
@@ -215,8 +215,8 @@ def test_a_report_on_curves_is_kept_and_goes_on_and_names_its_figures(tmp_path, 
 
 @pytest.mark.parametrize(("name", "amplitude"), [("cycloid-curve", 1.0), ("descent", "cubic"), ("polar-psi", 0.5)])
 def test_methods_and_solvers_agree_on_a_curve(name, amplitude):
-    one = family(name)
-    end = float(one.end(one.build(amplitude)))
+    one = reported_by(name)
+    end = float(one.end.of(one.problem(amplitude), None))
     fixed = work(Task(name, amplitude, "gauss4", "method", (4096,), end, 100_000))
     adaptive = work(Task(name, amplitude, "scipy.DOP853", "solver", (1e-12,), end, 100_000))
     assert (fixed[0].failure, adaptive[0].failure) == ("", "")
@@ -264,7 +264,7 @@ def test_a_method_that_cannot_march_a_problem_is_reported_in_a_sentence():
 def test_the_error_of_a_solver_is_that_of_a_method():
     fixed = work(Task("polar", 0.5, "rk4", "method", (4096,), 3.0, 100_000))
     adaptive = work(Task("polar", 0.5, "heyoka.taylor", "solver", (1e-4,), 3.0, 100_000))
-    truth = family("polar").build(0.5).state([Fraction(3)])[0]
+    truth = reported_by("polar").problem(0.5).state([Fraction(3)])[0]
     assert abs(truth[2]) > 1
     assert 0 < fixed[0].max_error < 1e-9 < adaptive[0].max_error < 1e-2
 

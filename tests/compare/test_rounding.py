@@ -54,7 +54,7 @@ def told(method: Any, courses: list[Course]) -> list[Rounding]:
 def shares(name: str, problem: Problem) -> list[float]:
     """What rounding is of its bound: the same steps in binary128 stand where truncation alone leads."""
     method, courses = find(name), courses_of(problem)
-    if method.separable_only and not getattr(problem, "positions", 0):
+    if method.separable_only and not problem.positions:
         return []
     wide = [Course(course.problem, course.n, course.n * course.h, FLOAT128) for course in courses]
     (narrow, own), (exact, its) = marched(method, courses), marched(method, wide)
@@ -66,7 +66,16 @@ def shares(name: str, problem: Problem) -> list[float]:
             np.max(course.place(error)) < 0.1
         ):  # one that is lost is on another motion, which carries roundings otherwise
             off = np.max(np.abs(error - other), axis=0)
-            drift = abs(result.max_drift - true.max_drift) / course.level / one.drift if course.level else 0.0
+            drift = max(
+                (
+                    abs(a - b) / scale / bound
+                    for a, b, scale, bound in zip(
+                        result.max_drifts, true.max_drifts, course.scales, one.drifts, strict=True
+                    )
+                    if scale
+                ),
+                default=0.0,
+            )
             found.append(float(max(np.max(off / one.state), np.max(course.place(error - other)) / one.place, drift)))
     return found
 

@@ -2,17 +2,20 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import Any
 
 import pytest
 
 import compare
-from compare import study as scoring
+from compare import scored as scoring
+from compare import study as studies
 from compare.methods import DEFAULT, METHODS, find
-from compare.studies.pendulum import study
 from reference import Pendulum
 from reference.command.executors import processes
-from reference.problems.paths import PolarByPsi
+from reference.problems.polar.paths import PolarByPsi
+
+study = partial(studies.study, "pendulum")
 
 
 def test_error_vs_n_and_energy_drift_give_what_the_study_gives() -> None:

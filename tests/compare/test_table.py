@@ -304,7 +304,7 @@ def test_an_input_of_its_case_is_read_off_a_record_and_nothing_else():
 
 
 def test_a_case_without_a_conserved_quantity_has_no_drift():
-    case = dataclasses.replace(made_case(1.0), drift=None)
+    case = dataclasses.replace(made_case(1.0), invariants=())
     study = made_study(methods=("rk4",), n=(128,))
     cells = tuple(dataclasses.replace(cell, case=case) for cell in study.error_vs_n)
     bare = dataclasses.replace(study, cases=(case,), error_vs_n=cells, order=(), energy_drift=())

@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import math
+from functools import partial
 
 import numpy as np
 import pytest
 
-from compare.studies.tautochrone import study
+from compare import study as studies
+
+study = partial(studies.study, "tautochrone")
 
 N = (256, 512, 1024, 2048)
 

@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING, Any
 import heyoka as hy
 import numpy as np
 import pytest
-from compare.march.aspects import aspect_of
 from flint import arb
 
 import compare
@@ -37,7 +36,8 @@ from reference.arithmetic.dual import DualArithmetic
 from reference.arithmetic.namespaces import BALL, Heyoka
 from reference.arithmetic.precision import ctx
 from reference.arithmetic.series import jet
-from reference.problems.paths import CycloidCurve, PolarByPsi, PolarByZ
+from reference.problems.cycloid.arc import CycloidCurve
+from reference.problems.polar.paths import PolarByPsi, PolarByZ
 
 if TYPE_CHECKING:
     from compare.methods.kinds.protocol import State
@@ -71,9 +71,9 @@ by_method = pytest.mark.parametrize("method", TAYLOR, ids=lambda method: method.
 
 def trial(problem: Problem) -> tuple[list[float], dict[str, float]]:
     """A state and parameters at which the equation is real, in the middle of the intervals."""
-    intervals = aspect_of(problem).trial
-    middle = [0.4 * low + 0.6 * high for low, high in map(intervals.state, range(len(problem.state_names)))]
-    return middle, {name: float(np.mean(intervals.parameter(name))) for name in problem.parameters}
+    intervals = problem.trial
+    middle = [0.4 * low + 0.6 * high for low, high in intervals.states]
+    return middle, {name: float(np.mean(intervals.parameters[name])) for name in problem.parameters}
 
 
 def integrator(problem: Problem, state: list[float], parameters: dict[str, float]) -> Any:
@@ -87,7 +87,7 @@ def integrator(problem: Problem, state: list[float], parameters: dict[str, float
 
 
 def system_of(problem: Problem, parameters: dict[str, float], fmt: Precision = FLOAT64) -> Any:
-    values = [fmt.number(Fraction(value)) for value in (0.0, 0.0, *parameters.values())]
+    values = [fmt.number(Fraction(value)) for value in (0.0, *[0.0] * len(problem.invariants), *parameters.values())]
     return plain_system(problem, fmt, np.array(values, dtype=fmt.type))
 
 
@@ -110,7 +110,7 @@ def test_a_step_is_that_of_heyokas_integrator_clamped_to_it(problem: Problem) ->
     """Where a step is so short that both leave out nothing."""
     state, parameters = trial(problem)
     other = integrator(problem, state, parameters)
-    h = aspect_of(problem).trial.step[0]
+    h = problem.trial.step[0]
     outcome, taken = other.step(max_delta_t=h)
     assert (outcome, taken) == (hy.taylor_outcome.time_limit, h)
     new, _ = TAYLOR20.step(system_of(problem, parameters), tuple(state), h)

@@ -30,7 +30,7 @@ from reference.dataset import build as building
 from reference.dataset.blocks import compute, partial, place_of
 from reference.dataset.build import build
 from reference.dataset.plan import Plan
-from reference.family import Group
+from reference.layout import Group
 from reference.problems.pendulum import family as groups
 
 PLAN = Plan("core", (Group(groups.DIMENSIONLESS, groups.UNIT, {"amplitude": [0.5], "time": [0.0, 0.25]}),))

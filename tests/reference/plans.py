@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from reference.dataset.plan import Plan
-from reference.family import Group
+from reference.layout import Group
 from reference.problems.pendulum import family as groups
 
 SMALL = Plan(

@@ -23,9 +23,10 @@ from reference import (
 )
 from reference.__main__ import main
 from reference.arithmetic.limbs import MAX_DIGITS, MAX_LIMBS, WorkBoundError
+from reference.problems.cycloid.arc import CycloidCurve
 from reference.problems.families import FAMILIES
-from reference.problems.paths import CycloidCurve, PolarByPsi, PolarByZ
 from reference.problems.pendulum import LindstedtMotion, PendulumSeries
+from reference.problems.polar.paths import PolarByPsi, PolarByZ
 
 HALF = Fraction(1, 2)
 PROBLEMS = (

@@ -20,7 +20,7 @@ from reference.dataset.build import build
 from reference.dataset.checksums import note_checksum
 from reference.dataset.plan import Plan
 from reference.dataset.reader import load
-from reference.family import BLOCK_LENGTH, Group
+from reference.layout import BLOCK_LENGTH, Group
 from reference.problems.pendulum import family as groups
 from reference.routes.agreement import Agreement
 
@@ -158,7 +158,7 @@ def test_a_full_disk_leaves_the_old_file_and_nothing_else(tmp_path, limit):
         from reference.dataset import build as building
         from reference.problems.pendulum import family as groups
         from reference.dataset.plan import Plan
-        from reference.family import Group
+        from reference.layout import Group
         times = [0.0, 1.0, 2.0**20]
         signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
         resource.setrlimit(resource.RLIMIT_FSIZE, ({limit}, {limit}))

@@ -22,7 +22,7 @@ from reference.dataset.build import build
 from reference.dataset.cite import FORMATS as CITE_FORMATS
 from reference.dataset.plan import Plan
 from reference.dataset.reader import core_path
-from reference.family import Group
+from reference.layout import Group
 from reference.problems.pendulum import family as groups
 
 ROOT = Path(reference.__file__).parents[1]

@@ -13,7 +13,7 @@ from reference.dataset import build as building
 from reference.dataset.blocks import BusyError, Result, compute, partial
 from reference.dataset.build import build
 from reference.dataset.plan import Plan
-from reference.family import Group
+from reference.layout import Group
 from reference.problems.pendulum import family as groups
 
 

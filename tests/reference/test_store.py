@@ -20,7 +20,7 @@ from reference.dataset.fingerprint import pieces
 from reference.dataset.reader import core_path, load
 from reference.dataset.schema import arrays
 from reference.dataset.versions import NEWEST
-from reference.family import Coordinate, Group, Layout
+from reference.layout import Coordinate, Group, Layout
 from reference.problems.pendulum import Pendulum
 from reference.problems.pendulum import family as groups
 

@@ -22,7 +22,7 @@ from reference.dataset.schema import RELEASED, arrays
 from reference.dataset.show import show
 from reference.dataset.verify import verify
 from reference.dataset.versions import NEWEST, SCHEMAS
-from reference.family import Group
+from reference.layout import Group
 from reference.problems.polar import family as polar
 
 DATA = Path(__file__).parent / "data"

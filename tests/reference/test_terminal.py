@@ -103,7 +103,7 @@ def test_a_closed_output_is_no_error_where_there_is_nothing_to_say(tmp_path):
 
     from reference.dataset.build import build
     from reference.dataset.plan import Plan
-    from reference.family import Group
+    from reference.layout import Group
     from reference.problems.pendulum import family as groups
 
     inputs = {"amplitude": [0.5], "time": np.arange(2) / 4}

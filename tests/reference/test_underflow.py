@@ -46,7 +46,7 @@ import numpy as np
 from reference.dataset.build import build
 from reference.problems.pendulum import family as groups
 from reference.dataset.plan import Plan
-from reference.family import Group
+from reference.layout import Group
 from reference.dataset.reader import load
 from reference.dataset.fingerprint import fingerprint
 from reference.dataset.verify import verify

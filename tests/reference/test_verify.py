@@ -15,7 +15,7 @@ from reference.dataset.plan import Plan
 from reference.dataset.reader import load
 from reference.dataset.schema import exact_texts
 from reference.dataset.verify import differs, verify
-from reference.family import Group
+from reference.layout import Group
 from reference.problems.pendulum import family as groups
 from reference.routes.agreement import DisagreementError
 

@@ -17,7 +17,7 @@ from compare.sources.published.curve import simpson_error
 from compare.sources.published.entry import reproduce
 from compare.sources.published.number import Enclosed
 from compare.sources.published.source import tables
-from reference.problems.paths import CycloidCurve
+from reference.problems.cycloid.arc import CycloidCurve
 
 __all__ = ["figure6", "figure7"]
 

@@ -18,8 +18,9 @@ from compare.march.precision import precision
 from compare.methods import find
 from compare.show.digits import is_rounding
 from compare.sources.published.number import Rounded, Scientific, double
+from reference.problems.cycloid.arc import CycloidCurve
 from reference.problems.cycloid.equations import point_below_cusp
-from reference.problems.paths import CycloidCurve, PolarByPsi, PolarByZ
+from reference.problems.polar.paths import PolarByPsi, PolarByZ
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence

@@ -11,19 +11,19 @@ from reference.arithmetic.exact import as_number, exact
 from reference.arithmetic.namespaces import MPMATH
 from reference.arithmetic.precision import mp
 from reference.declaration import ClosedForm, Form, Row, StateSpace, Trial
-from reference.problem import Problem
+from reference.problem import APART, Problem
 from reference.problems.cycloid.equations import point_below_cusp, run
 from reference.problems.cycloid.quantities import CURVE_ROWS, HEIGHT, exponent, positive_number
 from reference.problems.cycloid.taylor import TaylorArc
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Callable, Sequence
 
     from reference.arithmetic.protocols import Arithmetic, EllipticArithmetic
     from reference.declaration import Invariant
     from reference.row_domains import Domain
 
-__all__ = ["CycloidArc"]
+__all__ = ["CycloidArc", "CycloidCurve"]
 
 ZERO = Fraction(0)
 TAYLOR_RADIANS = 1000
@@ -152,3 +152,19 @@ class CycloidArc(Problem):
         """sin^2 and cos^2 of half of the angle at the depth y."""
         part = y / (2 * self.radius)
         return part, 1 - part
+
+
+@dataclass(frozen=True, init=False, repr=False)
+class CycloidCurve(CycloidArc):
+    """dx/dy = sqrt(y/(2 R - y)) from the cusp down, singular at the lowest point y = 2 R."""
+
+    def __repr__(self) -> str:
+        return f"CycloidCurve(radius={as_number(self.radius)!r})"
+
+    def rate(self) -> float:
+        """Zero: dx/dy does not depend on x."""
+        return 0.0
+
+    def neighbour(self, rounding: Callable[[Fraction], Fraction], epsilon: Fraction) -> CycloidCurve:
+        """The curve whose radius is larger by 2^-36 of itself, or by 16 roundings."""
+        return CycloidCurve(rounding(self.radius * (1 + max(APART, 16 * epsilon))))

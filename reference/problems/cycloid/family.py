@@ -3,18 +3,32 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from fractions import Fraction
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from reference.family import Coordinate, Group, Layout
-from reference.problems.cycloid import Cycloid, Tautochrone
+from reference.arithmetic.exact import as_number, exact
+from reference.family import Comparison, End, Family, Input, Marched, Reported
+from reference.layout import Coordinate, Group, Layout
+from reference.problems.cycloid.arc import CycloidCurve
+from reference.problems.cycloid.problem import Cycloid
+from reference.problems.cycloid.tautochrone import CycloidalPendulum, Tautochrone
 
 if TYPE_CHECKING:
     from reference.declaration import Row
     from reference.problem import Problem
 
-__all__ = ["BRACHISTOCHRONE", "LAYOUTS", "TAUTOCHRONE", "core", "full"]
+__all__ = [
+    "BRACHISTOCHRONE",
+    "FAMILY",
+    "LAYOUTS",
+    "TAUTOCHRONE",
+    "TAUTOCHRONE_FAMILY",
+    "core",
+    "depth_of",
+    "full",
+]
 
 GRAVITY = Coordinate("g", "m s-2", "acceleration of gravity")
 END_X = Coordinate("end_x", "m", "horizontal distance to the end point")
@@ -105,3 +119,110 @@ def full() -> tuple[Group, ...]:
         ),
         Group(TAUTOCHRONE, {"radius": 1.0, **EARTH}, {"start_angle": angles, "time": np.arange(4001) / 1000}),
     )
+
+
+NEAR_THE_BOTTOM = 0.99995
+"""Part of the depth of the cycloid at which a march along the curve ends.
+
+J. Šalinović, Problem brahistokrone u nehomogenom gravitacijskom polju, University of Split 2022: its figure 7
+integrates dx/dy to almost the lowest point, where dx/dy is infinite.
+"""
+
+
+def depth_of(curve: CycloidCurve, depth: Any, name: str) -> Fraction:
+    """Where the march of a curve ends: NEAR_THE_BOTTOM of its depth if it is not said.
+
+    Raises:
+        ValueError: it does not go down to there.
+    """
+    if depth is None:
+        return Fraction(float(2 * curve.radius) * NEAR_THE_BOTTOM)
+    if not 0 < (end := exact(depth, name)) <= 2 * curve.radius:
+        lowest = as_number(2 * curve.radius)
+        raise ValueError(
+            f"{name} is {as_number(end)}; a positive depth up to that of the cycloid, {lowest}, is accepted."
+        )
+    return end
+
+
+DEPTH = End("depth", "end of the curve's march in m (default 0.99995 of the way to the bottom)", None, depth_of)
+
+
+def to_end(end: tuple[Any, Any], g: Any = 9.81) -> Cycloid:
+    """The brachistochrone to the end point (x, y), y downward."""
+    return Cycloid(*end, g)
+
+
+def by_arc(swing: Tautochrone) -> CycloidalPendulum:
+    """The same bead by its arc, which starts at 4 R sin(angle/2) rounded to a double."""
+    return CycloidalPendulum(4 * float(swing.radius) * math.sin(float(swing.angle) / 2), swing.radius, swing.g)
+
+
+GRAVITY_INPUT = Input("g", "m s-2", "acceleration of gravity", "9.81")
+TIME_INPUT = Input("t", "s", "time", optional=True, over="time")
+
+FAMILY = Family(
+    name="cycloid",
+    help="the brachistochrone from rest at (0, 0) to an end point, y downward",
+    problem=to_end,
+    inputs=(
+        Input("end", "m", "end point X,Y: horizontal distance and depth", kind="pair"),
+        GRAVITY_INPUT,
+        TIME_INPUT,
+        Input("fraction", "1", "fraction of the descent time, from 0 to 1", optional=True, over="fraction"),
+        Input("epsilon", "1", "size of a neighbouring curve's deviation", optional=True, over="epsilon"),
+    ),
+    rows=(
+        "radius",
+        "end_angle",
+        "descent_time",
+        "arc_length",
+        "chord_time",
+        "chord_gap",
+        "curve",
+        "state",
+        "position",
+        "neighbour_gap",
+    ),
+    comparison=Comparison(
+        "brachistochrone",
+        "score them on the cycloid of quickest descent: as a motion, and as a curve dx/dy",
+        varied="end",
+        values=((math.pi, 2.0),),
+        what="point",
+        inputs=("g",),
+        forms=(
+            ("motion", Marched()),
+            ("curve", Marched(DEPTH, lambda bead: CycloidCurve(float(bead.radius())))),
+        ),
+    ),
+    reported=(
+        Reported("cycloid", "arc", "m", "m", (1.0,), CycloidalPendulum),
+        Reported("cycloid-curve", "radius", "m", "m", (1.0,), CycloidCurve, DEPTH),
+    ),
+    layouts=LAYOUTS,
+    core=core,
+    full=full,
+)
+TAUTOCHRONE_FAMILY = Family(
+    name="tautochrone",
+    help="Huygens' pendulum, a bead on an inverted cycloid, released from rest",
+    problem=Tautochrone,
+    inputs=(
+        Input("angle", "rad", "angle of the start, from the bottom"),
+        Input("radius", "m", "radius of the rolling circle", "1"),
+        GRAVITY_INPUT,
+        TIME_INPUT,
+    ),
+    rows=("state", "position", "descent_time", "period", "energy"),
+    comparison=Comparison(
+        "tautochrone",
+        "score them on Huygens' pendulum: by its angle, and by its arc length",
+        varied="angle",
+        values=(1.0,),
+        what="angle",
+        inputs=("radius", "g"),
+        forms=(("angle", Marched()), ("arc", Marched(problem=by_arc))),
+    ),
+    reported=(Reported("tautochrone", "angle", "rad", "rad", (1.0,), Tautochrone),),
+)

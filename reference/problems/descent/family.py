@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
+from typing import Any
+
 import numpy as np
 
-from reference.family import Coordinate, Group, Layout
+from reference.family import Comparison, End, Family, Input, Marched, Reported, positive_end
+from reference.layout import Coordinate, Group, Layout
 from reference.problems.descent import RACE as CURVES
 from reference.problems.descent import Descent
 
-__all__ = ["LAYOUTS", "RACE", "core", "full"]
+__all__ = ["FAMILY", "LAYOUTS", "RACE", "core", "full", "last_tick"]
 
 CURVE = Coordinate(
     "curve", "1", "curve of the race", "flag_meanings in order", meanings=tuple(curve.name for curve in CURVES)
@@ -51,3 +55,56 @@ def core() -> tuple[Group, ...]:
 def full() -> tuple[Group, ...]:
     """The same group with finer grids, as far as they are proven within hours on two cores."""
     return (Group(RACE, EARTH, {"curve": ALL, "time": np.arange(4001) / 4000, "fraction": np.arange(4097) / 4096}),)
+
+
+TICK = Fraction(1, 1024)
+SPARE = Fraction(4095, 4096)
+"""A march ends at the last multiple of so many seconds before this part of the descent: a neighbour may be quicker."""
+
+
+def last_tick(problem: Descent, end: Any, name: str) -> Fraction:
+    """Where the march of a descent ends, in s: almost at the end of the curve if it is not said.
+
+    Raises:
+        ValueError: the end is not positive, or the curve has no start to march from.
+    """
+    _ = problem.start  # a cusp has none
+    if end is not None:
+        return positive_end(problem, end, name)
+    return TICK * int(SPARE * Fraction(float(problem.descent_time())) / TICK)
+
+
+T_END = End("t_end", "end of the march in s (default: almost the end of the curve)", None, last_tick)
+
+FAMILY = Family(
+    name="descent",
+    help="descent from rest without friction on a curve, y upward",
+    problem=Descent,
+    inputs=(
+        Input(
+            "curve",
+            "",
+            f"one of {', '.join(curve.name for curve in CURVES)}; or a formula: y of x, or 'x = ...; y = ...' of p",
+            kind="text",
+        ),
+        Input("start", "", "where x or p of a formula begins, such as pi", optional=True, kind="text"),
+        Input("end", "", "where x or p of a formula ends, such as 0", optional=True, kind="text"),
+        Input("g", "m s-2", "acceleration of gravity", "9.81"),
+        Input("t", "s", "time", optional=True, over="time"),
+        Input("fraction", "1", "fraction of the way, from 0 to 1", optional=True, over="fraction"),
+    ),
+    rows=("descent_time", "arc_length", "motion", "state", "passage"),
+    comparison=Comparison(
+        "descent",
+        "score them on the descent along a curve without friction",
+        varied="curve",
+        values=("quartic", "cycloid"),
+        what="curve",
+        inputs=("start", "end", "g"),
+        forms=(("", Marched(T_END)),),
+    ),
+    reported=(Reported("descent", "curve", "", "", ("quartic", "cycloid"), Descent, T_END),),
+    layouts=LAYOUTS,
+    core=core,
+    full=full,
+)

@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from reference.family import Coordinate, Group, Layout
+from reference.family import Comparison, Family, Input, Reported
+from reference.layout import Coordinate, Group, Layout
 from reference.problems.pendulum import LinearPendulum, Pendulum, PendulumSeries
 from reference.problems.pendulum.quantities import SERVED
 
@@ -18,9 +19,11 @@ if TYPE_CHECKING:
 __all__ = [
     "DIMENSIONLESS",
     "EARTH",
+    "FAMILY",
     "LAYOUTS",
     "LIBRATION",
     "LINEAR",
+    "LINEAR_FAMILY",
     "LONG",
     "ROTATION",
     "SEPARATRIX",
@@ -207,3 +210,58 @@ def full() -> tuple[Group, ...]:
         Group(LINEAR, EARTH, {"amplitude": LIBRATION_AMPLITUDES, "time": np.arange(4001) / 400}),
         Group(SERIES, EARTH, {"amplitude": expanded_at, "order": np.arange(11)}),
     )
+
+
+GRAVITY_INPUT = Input("g", "m s-2", "acceleration of gravity", "9.81")
+TIME_INPUT = Input("t", "s", "time", over="time")
+LENGTH_INPUT = Input("length", "m", "length", "1")
+STATED = ("state", "period", "energy")
+
+FAMILY = Family(
+    name="pendulum",
+    help="the mathematical pendulum, released from rest or set going",
+    problem=Pendulum,
+    inputs=(
+        Input("theta0", "rad", "angle of the start; released from rest, 0 < theta0 < pi"),
+        Input("omega0", "rad s-1", "angular velocity of the start; without it, released from rest", optional=True),
+        GRAVITY_INPUT,
+        LENGTH_INPUT,
+        TIME_INPUT,
+    ),
+    rows=STATED,
+    comparison=Comparison(
+        "pendulum",
+        "score integrators on the pendulum: error against N, observed order, energy drift",
+        varied="theta0",
+        values=(1.0,),
+        what="amplitude",
+        inputs=("omega0", "g", "length"),
+        largest=1 << 20,
+    ),
+    reported=(Reported("pendulum", "theta0", "rad", "rad", (0.1, 1.0, 3.0), Pendulum),),
+    layouts=LAYOUTS,
+    core=core,
+    full=full,
+)
+LINEAR_FAMILY = Family(
+    name="linear",
+    help="the linearised pendulum",
+    problem=LinearPendulum,
+    inputs=(
+        Input("theta0", "rad", "angle of the start"),
+        Input("omega0", "rad s-1", "angular velocity of the start", "0"),
+        GRAVITY_INPUT,
+        LENGTH_INPUT,
+        TIME_INPUT,
+    ),
+    rows=STATED,
+    comparison=Comparison(
+        "linear",
+        "score them on the linearised pendulum, which is harmonic",
+        varied="theta0",
+        values=(1.0,),
+        what="amplitude",
+        inputs=("omega0", "g", "length"),
+    ),
+    reported=(Reported("linear", "theta0", "rad", "rad", (1.0,), LinearPendulum),),
+)

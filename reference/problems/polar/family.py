@@ -1,26 +1,40 @@
-"""The groups of the polar brachistochrone and of the tunnel."""
+"""The brachistochrone of a point mass: what is asked, stored and compared of it."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from fractions import Fraction
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from reference.family import Coordinate, Group, Layout
-from reference.problems.polar import PolarBrachistochrone
-from reference.problems.tunnel import Tunnel
+from reference.arithmetic.exact import as_number, exact
+from reference.family import Comparison, End, Family, Input, Marched, Reported
+from reference.layout import Coordinate, Group, Layout
+from reference.problems.polar.bodies import BODIES
+from reference.problems.polar.paths import PolarByPsi, PolarByZ
+from reference.problems.polar.problem import PolarBrachistochrone
 
 if TYPE_CHECKING:
     from reference.declaration import Row
     from reference.problem import Problem
 
-__all__ = ["BOUNDARY", "FAMILY", "LAYOUTS", "MOTION", "TUNNEL_FAMILY", "TUNNEL_MOTION", "core", "full"]
+__all__ = [
+    "BOUNDARY",
+    "EXTREMALS",
+    "FAMILY",
+    "IN_A_FIELD",
+    "LAYOUTS",
+    "MOTION",
+    "core",
+    "depth_above",
+    "full",
+    "in_a_field",
+]
 
 Z0 = Coordinate("z0", "1", "height of the lowest point, r/r0")
 PSI = Coordinate("psi", "rad", "parameter of the curve: 0 at the release, pi at the lowest point")
 HEIGHT = Coordinate("height", "1", "fraction of the height between the lowest point and the release, on the way down")
 TAU = Coordinate("tau", "1", "time since the release in units of sqrt(r0^3/(2 G M))")
-TAU_INSIDE = Coordinate("tau", "1", "time since the release in units of sqrt(r0/g), g at the surface")
 EPSILON = Coordinate("epsilon", "1", "size of the neighbouring curve's deviation")
 END_Z = Coordinate("end_z", "1", "height of the end point, r/r0")
 END_PHI = Coordinate("end_phi", "rad", "angle of the end point")
@@ -48,7 +62,7 @@ def to_end(end_z: float, end_phi: float) -> PolarBrachistochrone:
 
 
 ONCE = ("kappa", "half_angle", "descent_time", "dhalf_angle_dz0", "ddescent_time_dz0", "chord_time", "chord_gap")
-FAMILY = Layout(
+EXTREMALS = Layout(
     "/polar/family",
     "brachistochrones in an inverse-square field, by their lowest point",
     (Z0,),
@@ -86,37 +100,7 @@ BOUNDARY = Layout(
     "higher: a boundary-value problem, whose solutions end where the angle at z = 1 reaches 2 pi/3",
     END,
 )
-TUNNEL_SOURCE = "G. Venezian, Am. J. Phys. 34 (1966) 701"
-TUNNEL_EQUATION = (
-    "the least time from rest at the surface z = r/r0 = 1 through the lowest point z0, gravity proportional to r: "
-    "z'' = -z + kappa (1 - z^4)/z^3, phi' = sqrt(kappa) (1 - z^2)/z^2, kappa = z0^2/(1 - z0^2)"
-)
-TUNNEL_DIFFICULTY = "average: a hypocycloid, with a cusp at either end"
-TUNNEL_FAMILY = Layout(
-    "/tunnel/family",
-    "fastest tunnels through a planet of uniform density, by their lowest point",
-    (Z0,),
-    {"psi": PSI, "height": HEIGHT, "epsilon": EPSILON},
-    (),
-    rows(Tunnel, "curve", "by_height", *ONCE, "neighbour_gap"),
-    Tunnel,
-    TUNNEL_SOURCE,
-    TUNNEL_EQUATION,
-    TUNNEL_DIFFICULTY,
-)
-TUNNEL_MOTION = Layout(
-    "/tunnel/motion",
-    "motion in time through these tunnels, down and up again",
-    (Z0,),
-    {"tau": TAU_INSIDE},
-    (),
-    rows(Tunnel, "state"),
-    Tunnel,
-    TUNNEL_SOURCE,
-    TUNNEL_EQUATION,
-    TUNNEL_DIFFICULTY,
-)
-LAYOUTS = (FAMILY, MOTION, BOUNDARY, TUNNEL_FAMILY, TUNNEL_MOTION)
+LAYOUTS = (EXTREMALS, MOTION, BOUNDARY)
 
 LOWEST = (0.01, *(k / 20 for k in range(1, 20)), 0.99)
 ENDS = tuple((z, phi) for z in (1.0, 0.75, 0.5, 0.25) for phi in (0.25, 1.0, 1.5))
@@ -126,15 +110,11 @@ def core() -> tuple[Group, ...]:
     """The grids of the dataset that ships with the package."""
     epsilon = np.array([1, 4, 8]) / 16  # a negative one gives the same
     return (
-        Group(FAMILY, {}, {"z0": LOWEST, "psi": np.arange(202) / 64, "height": np.arange(33) / 32, "epsilon": epsilon}),
+        Group(
+            EXTREMALS, {}, {"z0": LOWEST, "psi": np.arange(202) / 64, "height": np.arange(33) / 32, "epsilon": epsilon}
+        ),
         Group(MOTION, {}, {"z0": LOWEST, "tau": np.arange(193) / 64}),
         Group(BOUNDARY, {}, {"end_z": [end[0] for end in ENDS], "end_phi": [end[1] for end in ENDS]}),
-        Group(
-            TUNNEL_FAMILY,
-            {},
-            {"z0": LOWEST[::4], "psi": np.arange(202) / 64, "height": np.arange(33) / 32, "epsilon": epsilon},
-        ),
-        Group(TUNNEL_MOTION, {}, {"z0": LOWEST[::4], "tau": np.arange(193) / 64}),
     )
 
 
@@ -145,16 +125,107 @@ def full() -> tuple[Group, ...]:
     ends = [(z, phi) for z in np.arange(1, 17) / 16 for phi in np.arange(1, 17) / 8]
     return (
         Group(
-            FAMILY,
+            EXTREMALS,
             {},
             {"z0": lowest, "psi": np.arange(805) / 256, "height": np.arange(513) / 512, "epsilon": epsilon},
         ),
         Group(MOTION, {}, {"z0": lowest, "tau": np.arange(3073) / 1024}),
         Group(BOUNDARY, {}, {"end_z": [end[0] for end in ends], "end_phi": [end[1] for end in ends]}),
-        Group(
-            TUNNEL_FAMILY,
-            {},
-            {"z0": lowest, "psi": np.arange(805) / 256, "height": np.arange(513) / 512, "epsilon": epsilon},
-        ),
-        Group(TUNNEL_MOTION, {}, {"z0": lowest, "tau": np.arange(3073) / 1024}),
     )
+
+
+PSI_END_DEFAULT = 6.25
+"""Where a march along the curve in psi ends, in rad: almost at rest again."""
+ABOVE_THE_LOWEST = Fraction(1, 10_000)
+"""Part of the way down at which a march along the curve in z ends before its lowest point."""
+
+
+def depth_above(curve: PolarByZ, z_end: Any, name: str) -> Fraction:
+    """How far below the release the curve in z ends: ABOVE_THE_LOWEST of the way before its end if it is not said.
+
+    Raises:
+        ValueError: it is not above the lowest point and below the release.
+    """
+    lowest = curve.z0
+    if z_end is None:
+        return 1 - exact(float(lowest + (1 - lowest) * ABOVE_THE_LOWEST), name)
+    if not lowest < (end := exact(z_end, name)) < 1:
+        raise ValueError(f"{name} is {as_number(end)}; a number with {as_number(lowest)} < {name} < 1 is accepted.")
+    return 1 - end
+
+
+TAU_END = End("tau_end", "end of the motion's march in units of sqrt(r0^3/(2 G M)) (default 10)", 10.0)
+Z_END = End(
+    "z_end",
+    "end of the curve's march in z (default 1e-4 of the way above the lowest point)",
+    None,
+    depth_above,
+    lambda _curve, depth: 1 - depth,
+)
+PSI_END = End("psi_end", "end of the curve's march in psi in rad (default 6.25)", PSI_END_DEFAULT)
+TO_REST = End("psi_end", "almost at rest again", None, lambda _curve, _end, _name: Fraction(PSI_END_DEFAULT))
+
+
+def in_a_field(strength: Input, unit: str) -> tuple[Input, ...]:
+    """What a brachistochrone in a central field asks for, its strength and its unit of time given."""
+    return (
+        Input("z0", "1", "height of the lowest point, or else --end", optional=True),
+        Input("end", "", "end point R,PHI: its radius over r0 and its angle in rad", optional=True, kind="pair"),
+        Input("r0", "m", "radius of the release", optional=True),
+        strength,
+        Input("body", "", f"instead of {strength.name} a body: {' or '.join(BODIES)}", optional=True, kind="text"),
+        Input("tau", "1", f"time in units of {unit}", optional=True, over="tau"),
+        Input("psi", "rad", "parameter of the curve, pi at the lowest point", optional=True, over="psi"),
+        Input("z", "1", "height on the way down", optional=True, over="z"),
+        Input("t", "s", "time, where r0 is given", optional=True, over="time"),
+        Input("epsilon", "1", "size of a neighbouring curve's deviation", optional=True, over="epsilon"),
+    )
+
+
+IN_A_FIELD = (
+    "state",
+    "curve",
+    "by_z",
+    "z0",
+    "kappa",
+    "half_angle",
+    "descent_time",
+    "arrival_time",
+    "chord_time",
+    "chord_gap",
+    "time_unit",
+    "descent_seconds",
+    "arrival_seconds",
+    "si_state",
+    "si_curve",
+    "neighbour_gap",
+)
+FAMILY = Family(
+    name="polar",
+    help="the brachistochrone in the field of a point mass, z = r/r0, from rest; inside a real body an idealisation",
+    problem=PolarBrachistochrone,
+    inputs=in_a_field(
+        Input("gm", "m3 s-2", "gravitational constant times mass, with r0", optional=True), "sqrt(r0^3/(2 G M))"
+    ),
+    rows=IN_A_FIELD,
+    comparison=Comparison(
+        "polar",
+        "score them on the brachistochrone of a point mass: in time, in z and in psi",
+        varied="z0",
+        values=(0.5,),
+        what="lowest point",
+        forms=(
+            ("time", Marched(TAU_END)),
+            ("z", Marched(Z_END, lambda motion: PolarByZ(motion.z0))),
+            ("psi", Marched(PSI_END, lambda motion: PolarByPsi(motion.z0))),
+        ),
+    ),
+    reported=(
+        Reported("polar", "z0", "", "", (0.5, 0.1), PolarBrachistochrone, TAU_END),
+        Reported("polar-z", "z0", "", "rad", (0.5, 0.1), PolarByZ, Z_END),
+        Reported("polar-psi", "z0", "", "", (0.5, 0.1), PolarByPsi, TO_REST),
+    ),
+    layouts=LAYOUTS,
+    core=core,
+    full=full,
+)

@@ -1,4 +1,4 @@
-"""Curves as functions of a coordinate, marched as the thesis marches them: with a square root's singularity at the end.
+"""The brachistochrone of a point mass as a curve, marched as the thesis marches it: singular at the lowest point.
 
 The independent variable starts at zero and is the last component of the state, whose rate is one, so that a method's
 stages are taken at its own nodes.  A march along a curve conserves nothing, and neighbouring solutions stay as far
@@ -15,9 +15,8 @@ from reference.arithmetic.exact import as_number, exact
 from reference.declaration import ClosedForm, Form, Invariant, Quantity, Row, StateSpace, Trial
 from reference.once import cached_property
 from reference.problem import APART, Problem
-from reference.problems.cycloid.arc import CycloidArc
-from reference.problems.polar import PolarBrachistochrone
 from reference.problems.polar.equations import POINT_MASS
+from reference.problems.polar.problem import PolarBrachistochrone
 from reference.row_domains import Reals
 
 if TYPE_CHECKING:
@@ -26,28 +25,12 @@ if TYPE_CHECKING:
     from reference.arithmetic.protocols import Arithmetic
     from reference.row_domains import Domain
 
-__all__ = ["CycloidCurve", "PolarByPsi", "PolarByZ"]
+__all__ = ["PolarByPsi", "PolarByZ"]
 
 ZERO, ONE = Fraction(0), Fraction(1)
 DEPTH = Reals("depth", "depth", ZERO)
-"""To the lowest point of each path."""
+"""Below the release, to the lowest point."""
 PHI = Quantity("phi", "rad", "angle swept since the release", "dphi/dpsi = z0^(3/2) (1 - z)/(z sqrt(Q))")
-
-
-@dataclass(frozen=True, init=False, repr=False)
-class CycloidCurve(CycloidArc):
-    """dx/dy = sqrt(y/(2 R - y)) from the cusp down, singular at the lowest point y = 2 R."""
-
-    def __repr__(self) -> str:
-        return f"CycloidCurve(radius={as_number(self.radius)!r})"
-
-    def rate(self) -> float:
-        """Zero: dx/dy does not depend on x."""
-        return 0.0
-
-    def neighbour(self, rounding: Callable[[Fraction], Fraction], epsilon: Fraction) -> CycloidCurve:
-        """The curve whose radius is larger by 2^-36 of itself, or by 16 roundings."""
-        return CycloidCurve(rounding(self.radius * (1 + max(APART, 16 * epsilon))))
 
 
 @dataclass(frozen=True, repr=False)

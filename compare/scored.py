@@ -1,0 +1,245 @@
+"""Methods over problems over numbers of steps: the one run that every study and the public functions share."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from functools import partial
+from typing import TYPE_CHECKING, Any, Literal
+
+import numpy as np
+
+from compare.march.precision import precision as find_precision
+from compare.measure.cases import case_of
+from compare.measure.order_fit import fit_order
+from compare.measure.scores import GROWTH_SAMPLES, Found, score
+from compare.measure.truth import SAMPLES, Course
+from compare.measure.wanted import DEFAULT_SCORES, EXTRAS, chosen_scores
+from compare.methods import DEFAULT, METHODS, find
+from compare.methods.kinds.compensated import compensate
+from reference.arithmetic.exact import as_number, exact
+from reference.arithmetic.underflow import require_gradual
+from reference.command.sharing import shared
+from reference.problem import Problem
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
+    from concurrent.futures import Executor
+    from fractions import Fraction
+
+    from compare.march.precision import Precision
+    from compare.measure.records import Case, Cell, Drift, FittedOrder
+    from compare.methods.kinds.one_step import Method
+
+__all__ = ["DEFAULT_N", "Scored", "energy_drift", "error_vs_n", "named", "score_all", "some"]
+
+DEFAULT_N = tuple(2**k for k in range(7, 21))
+MAX_N = 10**10
+ALL = "all"
+"""What asks for every method."""
+
+
+@dataclass(frozen=True)
+class Scored:
+    """The scores of one run: in order of method, then problem, then N.
+
+    Attributes:
+        methods: those that were asked for.
+        problems: the problems, each with its end in ``t_ends``.
+        scores: which were asked for, of ``compare.measure.wanted.SCORES``.
+        samples: at how many of its steps a march is compared, at most.
+        found: records by the name of their table.
+        left_out: methods that do not fit a problem, by the problem's label.
+    """
+
+    methods: tuple[Method, ...]
+    problems: tuple[Problem, ...]
+    t_ends: tuple[Fraction, ...]
+    fmt: Precision
+    scores: tuple[str, ...]
+    samples: int
+    found: Found
+    left_out: dict[str, tuple[str, ...]]
+
+    @property
+    def cells(self) -> tuple[Cell, ...]:
+        """The errors."""
+        return tuple(self.found["error_vs_n"])
+
+    @property
+    def drifts(self) -> tuple[Drift, ...]:
+        """The drifts of what is conserved."""
+        return tuple(self.found["energy_drift"])
+
+    @property
+    def cases(self) -> tuple[Case, ...]:
+        """The problems in a few words."""
+        return tuple(map(case_of, self.problems))
+
+    @property
+    def orders(self) -> tuple[FittedOrder, ...]:
+        """A fitted order for each method and problem."""
+        pairs = ((method, case) for method in self.methods for case in self.cases)
+        groups = (
+            (method, [cell for cell in self.cells if (cell.method, cell.case) == (method.name, case)])
+            for method, case in pairs
+        )
+        return tuple(fit_order(method, cells) for method, cells in groups if cells)
+
+    def asked(self, name: str) -> tuple[Any, ...] | None:
+        """The records of a score that is not always there; None where it was not asked for."""
+        return tuple(self.found[name]) if name in self.scores else None
+
+
+def error_vs_n(problem: Problem, methods: Sequence[str] | None = None, **options: Any) -> tuple[Cell, ...]:
+    """Return the error of methods on a problem at each number of steps; options as for ``score_all``."""
+    return score_all([problem], methods, **options).cells
+
+
+def energy_drift(problem: Problem, methods: Sequence[str] | None = None, **options: Any) -> tuple[Drift, ...]:
+    """Return the energy drift of methods on a problem at each number of steps; options as for ``score_all``."""
+    return score_all([problem], methods, **options).drifts
+
+
+def score_all(
+    problems: Sequence[Problem],
+    methods: Sequence[str] | None = None,
+    n: Sequence[int] = DEFAULT_N,
+    t_end: Any = 10.0,
+    precision: str = "float64",
+    executor: Executor | None = None,
+    progress: Callable[[str], None] | None = None,
+    *,
+    compensated: bool | Literal["beside"] = False,
+    scores: Sequence[str] = DEFAULT_SCORES,
+) -> Scored:
+    """March methods over 0 <= t <= t_end of each problem in each number of steps, and score them.
+
+    A method that needs positions and momenta, or a conserved quantity, is left out where the problem has none.
+
+    Args:
+        problems: problems of any families.
+        methods: names or aliases, or "all" for every one; ``compare.methods.DEFAULT`` if None.
+        n: numbers of steps, each a positive integer.
+        t_end: end of the march, in s or the problem's own unit; or a list of one for each problem.
+        precision: a format of ``compare.march.precision``.
+        executor: where the methods are marched, such as a process pool; in this process if None.
+        progress: called with each method's name when it is done.
+        compensated: whether every step's additions to the state are compensated for rounding; "beside" marches each
+            method both ways.
+        scores: what is scored, of ``compare.measure.wanted.SCORES``.
+
+    Raises:
+        ValueError: an argument is outside its range, a name unknown, or no method fits any problem.
+        TypeError: an argument is of the wrong kind.
+        UnderflowModeError: the processor takes subnormal numbers for zero.
+    """
+    require_gradual("a comparison")
+    if not all(isinstance(problem, Problem) for problem in problems):
+        raise TypeError(f"problems holds a {type(problems[0]).__name__}; problems such as Pendulum(1.0) are accepted.")
+    fmt, wanted = find_precision(precision), chosen_scores(some(scores, "scores"))
+    chosen = named(methods)
+    if compensated:
+        twins = [(compensate(method),) if compensated is True else (method, compensate(method)) for method in chosen]
+        chosen = tuple(method for both in twins for method in both)
+    ends = _ends(t_end, len(problems))
+    samples = GROWTH_SAMPLES if "growth" in wanted else SAMPLES
+    counts = _step_counts(n)
+    courses = [
+        Course(problem, k, end, fmt, samples) for problem, end in zip(problems, ends, strict=True) for k in counts
+    ]
+    for course in courses:
+        course.truth, course.neighbour.truth, course.reach  # noqa: B018 - computed once, before processes share it
+    fitting = {method.name: [course for course in courses if fits(method, course.problem)] for method in chosen}
+    if not any(fitting.values()):
+        raise ValueError(f"none of {', '.join(fitting)} fits {problems[0]!r}; others, such as rk4, are accepted.")
+    results = _in_order_of_work(chosen, fitting, (fmt, wanted), executor, progress)
+    tables = ("error_vs_n", "energy_drift", *(name for name in wanted if name in EXTRAS))
+    found = {table: [record for method in chosen for record in results[method.name][table]] for table in tables}
+    left_out = {
+        case_of(problem).label: tuple(method.name for method in chosen if not fits(method, problem))
+        for problem in problems
+    }
+    return Scored(chosen, tuple(problems), ends, fmt, wanted, samples, found, left_out)
+
+
+def named(methods: Sequence[str] | None) -> tuple[Method, ...]:
+    """The methods of these names or aliases, each once; "all" stands for every one, and None for the default ones.
+
+    Raises:
+        ValueError: a name is unknown, or there is none.
+        TypeError: ``methods`` is one name.
+    """
+    if methods is None:
+        return DEFAULT
+    found = (METHODS if str(name).strip().lower() == ALL else (find(name),) for name in some(methods, "methods"))
+    return tuple(dict.fromkeys(method for several in found for method in several))
+
+
+def fits(method: Method, problem: Problem) -> bool:
+    """Whether the problem has what the method needs: positions apart from momenta, or a conserved quantity."""
+    if method.separable_only and not problem.positions:
+        return False
+    return method.family != "conservative" or bool(problem.invariants)
+
+
+def _ends(t_end: Any, count: int) -> tuple[Fraction, ...]:
+    """The end of the march of each problem."""
+    listed = list(t_end) if isinstance(t_end, (list, tuple)) else [t_end] * count
+    if len(listed) != count:
+        raise ValueError(f"t_end has {len(listed)} numbers for {count} problems; one for each is accepted.")
+    ends = tuple(exact(end, "t_end") for end in listed)
+    for end in ends:
+        if end <= 0:
+            raise ValueError(f"t_end is {as_number(end)}; a positive number is accepted.")
+    return ends
+
+
+def some(values: Any, name: str) -> list[Any]:
+    """``values`` as a list, if it is a sequence with something in it.
+
+    Raises:
+        TypeError: it is a string or one value.
+        ValueError: it is empty.
+    """
+    if isinstance(values, (str, bytes)) or not isinstance(values, Iterable):
+        raise TypeError(f"{name} is {values!r}; a sequence such as [{values!r}] is accepted.")
+    found = list(values)
+    if not found:
+        raise ValueError(f"{name} is empty; at least one is accepted.")
+    return found
+
+
+def _step_counts(n: Sequence[int]) -> list[int]:
+    for count in some(n, "n"):
+        if isinstance(count, bool) or not isinstance(count, (int, np.integer)) or not 0 < count <= MAX_N:
+            raise ValueError(f"n is {count!r}; a positive integer up to {MAX_N} is accepted.")
+    return sorted({int(count) for count in n})
+
+
+def _score(task: tuple[Method, list[Course]], fmt: Precision, wanted: Sequence[str]) -> Found:
+    return score(*task, fmt, wanted)
+
+
+def _in_order_of_work(
+    methods: Sequence[Method],
+    courses: dict[str, list[Course]],
+    asked: tuple[Precision, Sequence[str]],
+    executor: Executor | None,
+    progress: Callable[[str], None] | None,
+) -> dict[str, Found]:
+    """Each method's records, the longest marches begun first.
+
+    Processes, not threads: a call of a compiled block is so short that threads would spend their time handing over the
+    interpreter's lock.
+    """
+    by_work = sorted(
+        methods, key=lambda method: (method.family != "implicit", -method.evaluations(1)[0], -method.order)
+    )
+    tasks = [(method, courses[method.name]) for method in by_work]
+    scores: dict[str, Found] = {}
+    for (method, _), found in shared(tasks, partial(_score, fmt=asked[0], wanted=asked[1]), executor):
+        scores[method.name] = found
+        if progress is not None:
+            progress(method.name)
+    return scores

@@ -1,0 +1,86 @@
+"""What stands in a user's own module or file, by its name: ``MODULE:NAME`` or ``FILE.py:NAME``."""
+
+from __future__ import annotations
+
+import importlib
+import importlib.util
+import sys
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from reference.names import short, unknown
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
+    from types import ModuleType
+
+__all__ = ["named"]
+
+
+def named(name: str, what: str, example: str, fits: Callable[[Any], bool]) -> Any:
+    """What ``name`` says: a module that can be imported from here or a file, and what is in it.
+
+    Args:
+        name: MODULE:NAME or FILE.py:NAME.
+        what: what is looked for, such as "function".
+        example: how such a name is spelt, such as "STEP".
+        fits: whether something of the module is such a thing.
+
+    Raises:
+        ValueError: the name is not of this form, or there is no such thing.
+        FileNotFoundError: there is no such file.
+        ImportError: the module cannot be imported; the sentence repeats why.
+    """
+    home, colon, attribute = name.rpartition(":")
+    if not (colon and home and attribute):
+        raise ValueError(f"'{short(name)}' names no {what}; MODULE:{example} or FILE.py:{example} is accepted.")
+    found: Any = _file(Path(home)) if home.endswith(".py") else _module(home)
+    for part in attribute.split("."):
+        if not hasattr(found, part):
+            known = [one for one, value in vars(found).items() if fits(value) and not one.startswith("_")]
+            raise ValueError(unknown(what, part, known))
+        found = getattr(found, part)
+    if not fits(found):
+        raise ValueError(f"{attribute} in {home} is of type {type(found).__name__}; a {what} is accepted.")
+    return found
+
+
+def _module(name: str) -> ModuleType:
+    with _from_here(Path.cwd()), _excuses(name):
+        return importlib.import_module(name)
+
+
+def _file(path: Path) -> ModuleType:
+    if not path.is_file():
+        raise FileNotFoundError(f"there is no file '{path}'.")
+    spec = importlib.util.spec_from_file_location(path.stem, path)
+    if spec is None or spec.loader is None:
+        raise ImportError(f"'{path}' is no Python file.")
+    module = importlib.util.module_from_spec(spec)
+    sys.modules[spec.name] = module  # where its classes look for themselves
+    with _from_here(path.resolve().parent), _excuses(str(path)):
+        spec.loader.exec_module(module)
+    return module
+
+
+@contextmanager
+def _from_here(folder: Path) -> Iterator[None]:
+    """Import what lies in a folder, as Python does for a script there; worker processes then find it too."""
+    sys.path.insert(0, str(folder))
+    try:
+        yield
+    finally:
+        sys.path.remove(str(folder))
+        if str(folder) not in sys.path:
+            sys.path.append(str(folder))
+
+
+@contextmanager
+def _excuses(name: str) -> Iterator[None]:
+    """Whatever a module raises while it is imported, as one sentence."""
+    try:
+        yield
+    except (Exception, SystemExit) as error:
+        told = " ".join(str(error).split()).rstrip(".")
+        raise ImportError(f"{name} cannot be imported: {type(error).__name__}{': ' * bool(told)}{told}.") from error
