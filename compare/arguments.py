@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from compare.claims import options as claims
 from compare.files import options as files
-from compare.options import FamilyOptions
+from compare.options import FamilyOptions, families_of
 from compare.report import options as report
 from compare.show.render import FORMATS
 from compare.solvers import options as solvers
@@ -43,6 +43,8 @@ _OPTIONS: dict[str, Any] = {
     "score": files,
 }
 """Where the options of a command stand."""
+_OF_A_PROBLEM = frozenset({"solvers", "score", "check"})
+"""Commands that take --problem, and the inputs of its family."""
 _SHOWN = tuple(form for form in FORMATS if form != "csv")
 _FORMATS_HELP, _SHOWN_HELP = f"{', '.join(FORMATS)} (default text)", f"{', '.join(_SHOWN)} (default text)"
 _MISTAKE = "A mistake is one sentence on stderr and exit code 2."
@@ -90,7 +92,7 @@ def parse(words: Sequence[str]) -> Request:
     if family is not None:
         options = FamilyOptions(family).options(known)
     elif known.command in _OPTIONS:
-        options = _OPTIONS[known.command].options(known)
+        options = _OPTIONS[known.command].options(known, *_asked(words))
     else:
         options = _shown_method(known) if known.command == "show" else {}
     return Request(
@@ -102,6 +104,11 @@ def parse(words: Sequence[str]) -> Request:
         plots=getattr(known, "plots", False),
         quiet=getattr(known, "quiet", False),
     )
+
+
+def _asked(words: Sequence[str]) -> tuple[tuple[Family, ...], ...]:
+    """The families whose inputs a command takes, where it takes those of any."""
+    return (families_of(words),) if words[0] in _OF_A_PROBLEM else ()
 
 
 def _families(word: str = "") -> dict[str, Family]:
@@ -125,7 +132,7 @@ def _parser(words: Sequence[str], families: dict[str, Family]) -> Parser:
         epilog = _MISTAKE if command in _WITHOUT_NUMBERS else _EPILOG
         one = commands.add_parser(command, help=told, description=told, epilog=epilog)
         if command == words[0] and command in _OPTIONS:
-            _OPTIONS[command].add_options(one)
+            _OPTIONS[command].add_options(one, *_asked(words))
         if command == "show":
             one.add_argument("method", metavar="NAME", help="a method by its name or an alias; see 'list'")
             one.add_argument(

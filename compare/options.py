@@ -9,60 +9,81 @@ from compare.measure.wanted import DEFAULT_SCORES, SCORES
 from compare.show.render import FORMATS
 from reference.command.terminal import one_of
 from reference.command.values import as_written, number, pair, several, text, whole
+from reference.names import unknown
 
 if TYPE_CHECKING:
     import argparse
-    from collections.abc import Callable
+    from collections.abc import Callable, Sequence
 
-    from reference.family import End, Family, Input
+    from reference.family import End, Family
 
-__all__ = ["FamilyOptions", "inputs_given", "inputs_offered"]
+__all__ = ["FamilyOptions", "families_of", "inputs_given", "inputs_offered"]
 
 LEAST_N = 128
 SEVERAL: dict[str, Any] = {"action": "append", "metavar": "A,B"}
 
 
-def inputs_offered(family: Family, parser: argparse.ArgumentParser, known: set[str] | None = None) -> None:
-    """Add a family's inputs, of which one may be given several times, to a parser that has the ``known`` ones."""
-    comparison = family.comparison
-    for name in (comparison.varied, *comparison.inputs):
-        wanted = family.input(name)
-        if known is not None and name in known:
-            continue
-        varies = name == comparison.varied
-        units = f", in {wanted.units}" if wanted.units not in {"", "1"} else ""
-        default = ", ".join(map(_typed, comparison.values)) if varies else wanted.default
-        told = f"{wanted.help}{units}{f' (default {default})' if default else ''}{'; may repeat' if varies else ''}"
-        parser.add_argument(
-            f"--{name}",
-            action="append" if varies else "store",
-            metavar="X,Y" if wanted.kind == "pair" else "A,B" if varies else name.upper(),
-            help=told.replace("%", "%%"),
-        )
+def families_of(words: Sequence[str]) -> tuple[Family, ...]:
+    """The families whose inputs a command line may have: ours, or the user's own that it names with --problem.
+
+    A check that names none is of the usual problem, and none is imported for it.
+    """
+    if words[0] == "check" and not any(word.startswith("--problem") for word in words):
+        return ()
+    from reference.problems.families import FAMILIES, find_family
+
+    spelled = " ".join(words).replace("--problem=", "--problem ").split()
+    names = [spelled[place + 1] for place, word in enumerate(spelled[:-1]) if word == "--problem"]
+    return (find_family(names[-1]),) if names and ":" in names[-1] else FAMILIES
+
+
+def inputs_offered(families: Sequence[Family], parser: argparse.ArgumentParser) -> None:
+    """Add the inputs of families to a parser, each name once."""
+    offered: dict[str, str] = {}
+    for family in families:
+        comparison = family.comparison
+        for name in (comparison.varied, *comparison.inputs):
+            if name not in offered:
+                wanted, varies = family.input(name), name == comparison.varied
+                units = f", in {wanted.units}" if wanted.units not in {"", "1"} else ""
+                default = ", ".join(map(_typed, comparison.values)) if varies else wanted.default
+                default = f" (default {default})" if default else ""
+                offered[name] = f"{wanted.help}{units}{default}{'; may repeat' if varies else ''}"
+                metavar = "X,Y" if wanted.kind == "pair" else "A,B" if varies else name.upper()
+                parser.add_argument(f"--{name}", action="append", metavar=metavar, help=offered[name])
 
 
 def _typed(value: Any) -> str:
     return ",".join(f"{part:g}" for part in value) if isinstance(value, tuple) else str(value)
 
 
-def inputs_given(family: Family, known: argparse.Namespace) -> dict[str, Any]:
-    """The family's inputs that were given, as values."""
-    comparison = family.comparison
-    found = {}
-    for name in (comparison.varied, *comparison.inputs):
-        words = getattr(known, name)
-        if words is not None:
-            found[name] = _value(family.input(name), words, exact=known.exact)
-    return found
+def inputs_given(family: Family, known: argparse.Namespace, offered: Sequence[Family]) -> dict[str, Any]:
+    """The family's inputs that were given, as values.
+
+    Raises:
+        ValueError: an input of another family was given, or one cannot be read.
+    """
+    own = (family.comparison.varied, *family.comparison.inputs)
+    others = {name for other in offered for name in (other.comparison.varied, *other.comparison.inputs)}
+    for name in sorted(others - set(own)):
+        if getattr(known, name) is not None:
+            raise ValueError(unknown("option", f"--{name}", [f"--{accepted}" for accepted in own]))
+    return {
+        name: _value(family, name, getattr(known, name), exact=known.exact)
+        for name in own
+        if getattr(known, name) is not None
+    }
 
 
-def _value(wanted: Input, words: Any, *, exact: bool) -> Any:
-    """The words of an input as a value, or as several where there is a list of them."""
+def _value(family: Family, name: str, words: list[str], *, exact: bool) -> Any:
+    """The words of an input: as several values where it varies, else the last of them as a value."""
+    wanted, varies = family.input(name), name == family.comparison.varied
     read = as_written if exact else number
     if wanted.kind == "pair":
-        return tuple(pair(word, wanted.name, read) for word in words)
+        pairs = tuple(pair(word, name, read) for word in words)
+        return pairs if varies else pairs[-1]
     reader: Callable[[str, str], Any] = text if wanted.kind == "text" else read
-    return several(wanted.name, words, reader) if isinstance(words, list) else reader(words, wanted.name)
+    return several(name, words, reader) if varies else reader(words[-1], name)
 
 
 @dataclass(frozen=True)
@@ -82,7 +103,7 @@ class FamilyOptions:
     def add_options(self, parser: argparse.ArgumentParser) -> None:
         """Add them to a parser."""
         comparison = self.family.comparison
-        inputs_offered(self.family, parser)
+        inputs_offered([self.family], parser)
         if self._forms:
             told = f"{', '.join(self._forms)}; default all; may repeat"
             parser.add_argument("--form", **SEVERAL, help=f"forms of the equations: {told}")
@@ -112,7 +133,7 @@ class FamilyOptions:
 
     def options(self, known: argparse.Namespace) -> dict[str, Any]:
         """The arguments of the study, only those that were given."""
-        given = inputs_given(self.family, known)
+        given = inputs_given(self.family, known, [self.family])
         for name in self._ends:
             if getattr(known, name) is not None:
                 given[name] = (as_written if known.exact else number)(getattr(known, name), name.replace("_", "-"))

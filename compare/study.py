@@ -32,7 +32,7 @@ if TYPE_CHECKING:
     from reference.family import End, Input, Marched
     from reference.problem import Problem
 
-__all__ = ["TRACE_N", "problems_of", "study"]
+__all__ = ["TRACE_N", "family_of", "inputs_shown", "problems_of", "study"]
 
 LEAST_N = 128
 TRACE_N = 256
@@ -61,7 +61,7 @@ def study(family: Family | str, form: Sequence[str] | None = None, *, traces: bo
     bases = problems_of(one, inputs)
     marched: list[Problem] = []
     lengths: list[Fraction] = []
-    header = _inputs_shown(one, inputs, bases)
+    header = inputs_shown(one, inputs, bases)
     for marching in forms.values():
         problems = [marching.problem(base) for base in bases]
         own = [marching.end.of(problem, ends.get(marching.end.name)) for problem in problems]
@@ -148,7 +148,7 @@ def _ends(forms: dict[str, Marched]) -> list[End]:
     return [marching.end for marching in forms.values()]
 
 
-def _inputs_shown(family: Family, inputs: dict[str, Any], problems: Sequence[Problem]) -> dict[str, Any]:
+def inputs_shown(family: Family, inputs: dict[str, Any], problems: Sequence[Problem]) -> dict[str, Any]:
     """The inputs as the header gives them: those that were given, and the defaults of those that need one."""
     comparison, wanted = family.comparison, family.input(family.comparison.varied)
     if wanted.kind == "text":

@@ -123,6 +123,9 @@ class Problem:
         """What of phase and amplitude the exact motion lacks, in a sentence; "" where it has both."""
         return f"Phase and amplitude are not defined for the problem {self.name}."
 
+    event_words: ClassVar[str] = "events"
+    """What the events of ``passages`` are called."""
+
     def passages(self, until: float) -> tuple[str, int] | None:
         """The row of its proven events and how many of them lie in (0, until]; None where it has none."""
         del until

@@ -92,7 +92,7 @@ def _answer(line: _Line, request: dict[str, Any]) -> dict[str, Any]:
         from compare.claims.checking import check
 
         line.say({"stage": "ready"})
-        found = check(**{**options, "step": step})
+        found = check(**{**options, "step": step, **_problem(options.get("problem"))})
     except (OSError, ValueError, ImportError, ArithmeticError, RuntimeError) as error:
         return {"refused": sentence(error)}
     except BaseException as error:
@@ -102,6 +102,16 @@ def _answer(line: _Line, request: dict[str, Any]) -> dict[str, Any]:
         return {"left": f"{name} raised {type(error).__name__}"}
     text = {"text": show.text, "json": show.json_text}[request["form"]](found)
     return {"text": text, "code": EXIT_CODES[found.claims_hold]}
+
+
+def _problem(asked: dict[str, Any] | None) -> dict[str, Any]:
+    """The problem that is asked for, as an argument of ``check``; none where it is the usual one."""
+    if asked is None:
+        return {}
+    from compare.study import problems_of
+    from reference.problems.families import find_family
+
+    return {"problem": problems_of(find_family(asked["family"]), asked["inputs"])[0]}
 
 
 def _follow(parent: int, line: _Line) -> None:

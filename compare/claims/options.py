@@ -5,11 +5,16 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Any
 
+from compare.options import inputs_given, inputs_offered
 from reference.command.terminal import one_of
 from reference.names import short
+from reference.problems.families import find_family
 
 if TYPE_CHECKING:
     import argparse
+    from collections.abc import Sequence
+
+    from reference.family import Family
 
 __all__ = ["add_options", "options"]
 
@@ -17,8 +22,8 @@ FORMATS = ("text", "json")
 FORMS = ("step", "timed", "separable", "integrator")
 
 
-def add_options(parser: argparse.ArgumentParser) -> None:
-    """Add them to a parser."""
+def add_options(parser: argparse.ArgumentParser, families: Sequence[Family]) -> None:
+    """Add them to a parser, the inputs of the families among them."""
     parser.add_argument("step", metavar="MODULE:STEP", help="the function, in a module or in FILE.py:STEP")
     parser.add_argument("--order", metavar="P", help="claim this order")
     parser.add_argument("--symplectic", action="store_true", help="claim that it is symplectic")
@@ -29,11 +34,18 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         metavar="FORM",
         help="step (f, y, h), timed (f, t, y, h), separable (q, p, force, h), integrator (f, y0, t)",
     )
+    parser.add_argument(
+        "--problem",
+        metavar="NAME",
+        help="family of what it is tried on, its inputs as options (default: the pendulum released at 1 rad)",
+    )
+    inputs_offered(families, parser)
+    parser.add_argument("--exact", action="store_true", help="take numbers as written, not as doubles")
     parser.add_argument("--seconds", metavar="S", help="give up after so long (default 60)")
     parser.add_argument("--format", type=one_of("format", FORMATS), default="text", help="text (default) or json")
 
 
-def options(known: argparse.Namespace) -> dict[str, Any]:
+def options(known: argparse.Namespace, families: Sequence[Family]) -> dict[str, Any]:
     """What was given, as the arguments of ``compare.check``, the function still by name."""
     given: dict[str, Any] = {
         "step": known.step,
@@ -42,9 +54,19 @@ def options(known: argparse.Namespace) -> dict[str, Any]:
         "reversible": known.reversible or None,
         "form": known.form,
     }
+    if known.problem is not None:
+        inputs = inputs_given(find_family(known.problem), known, families)
+        given["problem"] = {"family": known.problem, "inputs": {name: _plain(value) for name, value in inputs.items()}}
     if known.seconds is not None:
         given["seconds"] = _positive("seconds", known.seconds)
     return given
+
+
+def _plain(value: Any) -> Any:
+    """A value of an input as JSON has it: an exact number as the fraction that it is."""
+    if isinstance(value, tuple):
+        return [_plain(part) for part in value]
+    return value if isinstance(value, (str, float, int)) else str(value)
 
 
 def _positive(name: str, text: str) -> float:

@@ -13,6 +13,9 @@ from reference.names import short
 
 if TYPE_CHECKING:
     import argparse
+    from collections.abc import Sequence
+
+    from reference.family import Family
 
 __all__ = ["add_options", "options"]
 
@@ -20,8 +23,8 @@ SHOWN_ROWS = 24
 SETTINGS = ("file", "problem", "columns", "skip", "comment", "rows", "exact", "format", "quiet", "command")
 
 
-def add_options(parser: argparse.ArgumentParser) -> None:
-    """Add them to a parser, the inputs of all families among them."""
+def add_options(parser: argparse.ArgumentParser, families: Sequence[Family]) -> None:
+    """Add them to a parser, the inputs of the families among them."""
     parser.add_argument("file", metavar="FILE", help="CSV, JSON, NPY, NPZ or HDF5; - reads text from standard input")
     parser.add_argument("--problem", default="pendulum", metavar="NAME", help="family of problems (default pendulum)")
     parser.add_argument("--columns", metavar="A,B,C", help="the file's names of the time and the state")
@@ -31,10 +34,8 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--exact", action="store_true", help="take parameters and times as written, not as doubles")
     parser.add_argument("--format", type=one_of("format", FORMATS), default="text", help=", ".join(FORMATS))
     parser.add_argument("--quiet", action="store_true", help="nothing on stderr but errors")
-    from compare.files.score import families
-
     texts: dict[str, str] = {}
-    for family in families():
+    for family in families:
         for wanted in family.inputs:
             if not wanted.over:
                 default = "" if wanted.default is None else f" (default {wanted.default})"
@@ -44,8 +45,9 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         parser.add_argument(f"--{name}", metavar=name.upper(), help=text)
 
 
-def options(known: argparse.Namespace) -> dict[str, Any]:
+def options(known: argparse.Namespace, families: Sequence[Family]) -> dict[str, Any]:
     """What was given, as the fields of a ``Submission``."""
+    del families
     return {
         "file": known.file,
         "family": known.problem,

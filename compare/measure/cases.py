@@ -45,6 +45,8 @@ def _case(problem: Problem, text: str) -> Case:
         cycle="period" if math.isfinite(problem.cycle()) else step or "unit",
         axes=_axes(problem),
         pair=space.pairs[0] if space.rates else (),
+        absolute=_absolute(problem),
+        events=problem.event_words,
         lacks=tuple(_lacks(problem).items()),
     )
 
@@ -76,6 +78,14 @@ def _error(problem: Problem) -> str:
     if len(names) > 1:
         return f"error of {' or '.join(names)}" + ("" if absolute else " relative to its largest value")
     return f"|{names[0]} - exact|" + ("" if absolute else f"/max |{names[0]}|")
+
+
+def _absolute(problem: Problem) -> str:
+    """The position error in the units of the state."""
+    names = problem.space.positions
+    units = {_units(problem, name) for name in names}
+    shared = f", in {next(iter(units))}" if len(units) == 1 and units != {""} else ""
+    return f"|{names[0]} - exact|{shared}" if len(names) == 1 else f"error of {' or '.join(names)}{shared}"
 
 
 def _lacks(problem: Problem) -> dict[str, str]:

@@ -21,6 +21,7 @@ __all__ = [
     "Drift",
     "FittedOrder",
     "Growth",
+    "OfCase",
     "OwnPeriod",
     "Phase",
     "Study",
@@ -45,6 +46,8 @@ class Case:
         cycle: what the slope of the drift is per: "period", or a unit of time where there is none.
         axes: what the axes of a phase portrait are called; () where there is no velocity.
         pair: where the first position and its rate stand in the state; () where there is no velocity.
+        absolute: the position error in the units of the state, with those where they are all the same.
+        events: what the proven events are called.
         lacks: the scores that need what the problem has not, and why.
     """
 
@@ -60,6 +63,8 @@ class Case:
     cycle: str = "period"
     axes: tuple[str, ...] = ("angle θ [rad]", "angular velocity ω [rad/s]")
     pair: tuple[int, ...] = (0, 1)
+    absolute: str = "|theta - exact|, in rad"
+    events: str = "passages through the bottom"
     lacks: tuple[tuple[str, str], ...] = ()
 
 

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
     from compare.measure.records import Case, Cell, Study, Trace
 
-__all__ = ["FIGURES", "draw_curves", "figures", "files", "wide_figure"]
+__all__ = ["FIGURES", "draw_curves", "figures", "files", "label", "told", "wide_figure"]
 
 _PANEL_COLUMNS = 4
 _FAINTEST_DRIFT = 1e-17
@@ -40,10 +40,14 @@ def files(study: Study) -> dict[str, bytes]:
 def figures(study: Study) -> Iterator[tuple[str, Figure]]:
     """Every figure with its name; one set an amplitude where the study has several."""
     for case in study.cases:
-        told = "-".join(f"{name}-{value}" for name, value in case.inputs)
-        suffix = f"-{_SPECIAL.sub('-', told)}" if len(study.cases) > 1 else ""
+        suffix = told(case) if len(study.cases) > 1 else ""
         for name, draw in _drawn(case):
             yield f"{study.problem}-{name}{suffix}", draw(study, case)
+
+
+def told(case: Case) -> str:
+    """The end of a figure's name that tells its case from others."""
+    return "-" + _SPECIAL.sub("-", "-".join(f"{name}-{value}" for name, value in case.inputs))
 
 
 def _drawn(case: Case) -> Iterator[tuple[str, Callable[[Study, Case], Figure]]]:
@@ -57,7 +61,7 @@ def _drawn(case: Case) -> Iterator[tuple[str, Callable[[Study, Case], Figure]]]:
 
 def error_figure(study: Study, case: Case) -> Figure:
     """Largest error against N, with the declared orders as dashed slopes; hollow grey cells are rounding."""
-    figure, axes = wide_figure(f"Error against number of steps, {_label(case)}", 0.84, _error_label(case))
+    figure, axes = wide_figure(f"Error against number of steps, {label(case)}", 0.84, _error_label(case))
     curves = _curves(study, case)
     draw_curves(axes, curves, _ink(study), lambda cell: cell.n)
     _draw_slopes(axes, study, curves)
@@ -68,7 +72,7 @@ def error_figure(study: Study, case: Case) -> Figure:
 
 def work_figure(study: Study, case: Case) -> Figure:
     """Largest error against evaluations of the right-hand side."""
-    figure, axes = wide_figure(f"Work and precision, {_label(case)}", 0.92, _error_label(case))
+    figure, axes = wide_figure(f"Work and precision, {label(case)}", 0.92, _error_label(case))
     draw_curves(axes, _curves(study, case), _ink(study), lambda cell: cell.evaluations)
     axes.set_xlabel("evaluations of the right-hand side")
     return figure
@@ -112,7 +116,7 @@ def phase_figure(study: Study, case: Case) -> Figure:
     return figure
 
 
-def _label(case: Case) -> str:
+def label(case: Case) -> str:
     """The case's label, with the symbols of its inputs."""
     return _NAMES.sub(lambda found: _SYMBOLS[found[0]], case.label)
 
@@ -275,7 +279,7 @@ def _panel_figure(traces: Sequence[Trace], title: str, case: Case) -> tuple[Figu
     for trace, axes in zip(traces, panels, strict=False):
         axes.set_title(trace.method if len(steps) == 1 else f"{trace.method}, N = {trace.n}", fontsize=10)
     at = f", N = {min(steps)}" if len(steps) == 1 else ""
-    figure.suptitle(f"{title}, {_label(case)}{at}", fontsize=13, fontweight="bold", x=0.01, ha="left")
+    figure.suptitle(f"{title}, {label(case)}{at}", fontsize=13, fontweight="bold", x=0.01, ha="left")
     return figure, panels[: len(traces)]
 
 

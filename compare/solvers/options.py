@@ -4,23 +4,27 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from compare.options import inputs_given, inputs_offered
 from compare.show.render import FORMATS
 from reference.command import values as reading
 from reference.command.terminal import one_of
+from reference.problems.families import find_family
 
 if TYPE_CHECKING:
     import argparse
+    from collections.abc import Sequence
+
+    from reference.family import Family
 
 __all__ = ["add_options", "options"]
 
 
-def add_options(parser: argparse.ArgumentParser) -> None:
-    """Add them to a parser."""
+def add_options(parser: argparse.ArgumentParser, families: Sequence[Family]) -> None:
+    """Add them to a parser, the inputs of the families among them."""
     several: dict[str, Any] = {"action": "append", "metavar": "A,B"}
-    parser.add_argument("--theta0", **several, help="amplitudes in rad, between 0 and pi (default 1); may repeat")
-    parser.add_argument("--g", metavar="G", help="gravity in m/s^2 (default 9.81)")
-    parser.add_argument("--length", metavar="L", help="length in m (default 1)")
-    parser.add_argument("--t-end", metavar="T", help="the last time in s (default 10)")
+    parser.add_argument("--problem", default="pendulum", metavar="NAME", help="family of problems (default pendulum)")
+    inputs_offered(families, parser)
+    parser.add_argument("--t-end", metavar="T", help="the last time in s, or in the problem's unit (default 10)")
     parser.add_argument("--rtol", **several, help="tolerances (default 1e-3, 1e-5, ... 1e-11); may repeat")
     parser.add_argument("--solvers", **several, help="solvers or packages by name (default all); may repeat")
     parser.add_argument("--max-evaluations", metavar="N", help="granted for one answer (default 150000)")
@@ -39,17 +43,15 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--quiet", action="store_true", help="nothing on stderr but errors")
 
 
-def options(known: argparse.Namespace) -> dict[str, Any]:
+def options(known: argparse.Namespace, families: Sequence[Family]) -> dict[str, Any]:
     """What was given, as arguments of ``compare.solvers.study.study``."""
-    number = reading.as_written if known.exact else reading.number
-    given: dict[str, Any] = {
-        name: reading.several(name, getattr(known, name), read)
-        for name, read in (("theta0", number), ("rtol", reading.number), ("solvers", reading.text))
-        if getattr(known, name) is not None
-    }
-    for name in ("g", "length", "t_end"):
+    family = find_family(known.problem)
+    given: dict[str, Any] = {"problem": family, **inputs_given(family, known, families)}
+    for name, read in (("rtol", reading.number), ("solvers", reading.text)):
         if getattr(known, name) is not None:
-            given[name] = number(getattr(known, name), name.replace("_", "-"))
+            given[name] = reading.several(name, getattr(known, name), read)
+    if known.t_end is not None:
+        given["t_end"] = (reading.as_written if known.exact else reading.number)(known.t_end, "t-end")
     if known.max_evaluations is not None:
         given["max_evaluations"] = reading.whole(known.max_evaluations, "max-evaluations", "number of evaluations")
     return given

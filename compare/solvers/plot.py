@@ -5,7 +5,8 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from compare.show.plot import draw_curves, wide_figure
+from compare.show.plot import draw_curves, told, wide_figure
+from compare.show.plot import label as label_of
 from compare.show.plot_style import inks, saved, style
 
 if TYPE_CHECKING:
@@ -13,6 +14,7 @@ if TYPE_CHECKING:
 
     from matplotlib.figure import Figure
 
+    from compare.measure.records import Case
     from compare.solvers.records import SolverCell, SolverStudy
 
 __all__ = ["FIGURES", "figures", "files"]
@@ -37,22 +39,21 @@ def files(study: SolverStudy) -> dict[str, bytes]:
 
 def figures(study: SolverStudy) -> Iterator[tuple[str, Figure]]:
     """Every figure with its name; one set an amplitude where the study has several."""
-    amplitudes = list(dict.fromkeys(cell.theta0 for cell in study.error_vs_rtol))
-    for theta0 in amplitudes:
-        suffix = f"-theta0-{theta0!r}" if len(amplitudes) > 1 else ""
+    for case in study.cases:
+        suffix = told(case) if len(study.cases) > 1 else ""
         for name in FIGURES:
-            yield f"solvers-{study.problem}-{name}{suffix}", _figure(study, name, theta0)
+            yield f"solvers-{study.problem}-{name}{suffix}", _figure(study, name, case)
 
 
-def _figure(study: SolverStudy, name: str, theta0: float) -> Figure:
+def _figure(study: SolverStudy, name: str, case: Case) -> Figure:
     title, label, work = FIGURES[name]
     ink = inks(list(dict.fromkeys(cell.solver for cell in study.error_vs_rtol)))
     curves: dict[str, list[SolverCell]] = {}
     looser_first = name != "error-vs-rtol"  # a curve ends at the right, where it is named
     for cell in sorted(study.error_vs_rtol, key=lambda cell: cell.rtol, reverse=looser_first):
-        if cell.theta0 == theta0 and math.isfinite(cell.max_error) and cell.max_error > 0:
+        if cell.case == case and math.isfinite(cell.max_error) and cell.max_error > 0:
             curves.setdefault(cell.solver, []).append(cell)
-    figure, axes = wide_figure(f"{title}, θ₀ = {theta0!r} rad", top=0.92)
+    figure, axes = wide_figure(f"{title}, {label_of(case)}", top=0.92)
     draw_curves(axes, curves, ink, work)
     axes.set_xlabel(label)
     return figure

@@ -3,7 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
+
+from compare.measure.records import OfCase
+
+if TYPE_CHECKING:
+    from compare.measure.records import Case
 
 __all__ = ["EventCell", "SolverCell", "SolverEntry", "SolverStudy"]
 
@@ -30,16 +35,16 @@ class SolverEntry:
 
 
 @dataclass(frozen=True)
-class SolverCell:
+class SolverCell(OfCase):
     """One solver at one tolerance.
 
     Attributes:
         rtol: the tolerance that was asked for, relative and absolute.
         used: what the solver worked with, on its own dial; NaN where it failed.
-        theta0: amplitude in rad.
-        max_error: largest error of the place, |theta - exact|, over the times, in rad; NaN where it failed.
+        case: the problem.
+        max_error: largest position error over the times, in the units of the state; NaN where it failed.
         end_error: the same at the last time.
-        velocity_error: largest error of the velocity, |omega - exact|, over the times, in rad/s.
+        velocity_error: largest error of the velocity over the times, likewise; NaN where there is none.
         evaluations: what it took, in the solver's own count; None where it failed.
         seconds: the shortest of a few calls, without what is compiled before the first; None where it failed.
         failure: the solver's own message where it failed, or "".
@@ -50,7 +55,7 @@ class SolverCell:
     solver: str
     rtol: float
     used: float
-    theta0: float
+    case: Case
     max_error: float
     end_error: float
     velocity_error: float
@@ -67,21 +72,21 @@ class SolverCell:
 
 
 @dataclass(frozen=True)
-class EventCell:
+class EventCell(OfCase):
     """The events that one solver found at one tolerance, against the proven ones.
 
     Attributes:
         expected: how many it was to find: all of them, or one where it stops at the first.
         matched: how many of those it found.
         spurious: how many it found besides.
-        max_error: largest |t - exact| over the matched ones, in s; NaN where there are none.
+        max_error: largest |t - exact| over the matched ones; NaN where there are none.
         first_only: whether the solver stops at the first event.
         failure: the solver's own message where it failed, or "".
     """
 
     solver: str
     rtol: float
-    theta0: float
+    case: Case
     expected: int
     matched: int
     spurious: int
@@ -100,6 +105,7 @@ class SolverStudy:
         reference: where the truth comes from.
         engine: how the solvers were called.
         solvers: all that were asked for, missing ones included.
+        cases: the problems.
     """
 
     problem: str
@@ -109,6 +115,7 @@ class SolverStudy:
     solvers: tuple[SolverEntry, ...]
     error_vs_rtol: tuple[SolverCell, ...]
     events: tuple[EventCell, ...]
+    cases: tuple[Case, ...] = ()
 
     @property
     def scored(self) -> bool:

@@ -23,6 +23,7 @@ from typing import TYPE_CHECKING, Generic, NamedTuple, TypeVar
 import numpy as np
 
 from compare.march.precision import precision
+from compare.measure.cases import case_of
 from compare.solvers.catalogue import select
 from compare.solvers.events import exact_events
 from compare.solvers.records import EventCell, SolverCell
@@ -67,7 +68,7 @@ def events(
     """
     answered = [one for one in asked if not one.cell.failure]
     exact = {one.question.problem: exact_events(one.question.problem, one.question.end) for one in answered}
-    found: dict[tuple[str, float, float], EventCell | None] = {}
+    found: dict[tuple[str, Problem, float], EventCell | None] = {}
     seconds = sum(one.cell.seconds or 0.0 for one in answered if one.solver.events is not None)
     if executor is None or seconds < WORTH_PROCESSES:
         for solver, question, _ in answered:
@@ -83,8 +84,8 @@ def events(
     return [cell for cell in cells if cell is not None]
 
 
-def _key(solver: str, question: Question) -> tuple[str, float, float]:
-    return solver, float(question.problem.start[0]), question.rtol
+def _key(solver: str, question: Question) -> tuple[str, Problem, float]:
+    return solver, question.problem, question.rtol
 
 
 def _tell(progress: Callable[[str], None] | None, name: str) -> None:
@@ -205,7 +206,7 @@ def _cell(solver: Solver, question: Question, found: Heard[Answer], seconds: flo
         solver=solver.name,
         rtol=question.rtol,
         used=math.nan if answer is None else answer.used,
-        theta0=float(question.problem.start[0]),
+        case=case_of(question.problem),
         max_error=float(place.max()),
         end_error=float(place[-1]),
         velocity_error=float(velocity.max()) if velocity.size else math.nan,
@@ -272,7 +273,7 @@ def score_events(solver: Solver, question: Question, exact: np.ndarray) -> Event
     return EventCell(
         solver=solver.name,
         rtol=question.rtol,
-        theta0=float(question.problem.start[0]),
+        case=case_of(question.problem),
         expected=len(wanted),
         matched=len(errors),
         spurious=spurious,

@@ -1,4 +1,4 @@
-"""Adaptive solvers on the released pendulum: error against tolerance, evaluations and seconds, and their events."""
+"""Adaptive solvers on the problems of a family: error against tolerance, evaluations and seconds, and their events."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from compare.measure.cases import case_of
 from compare.measure.errors import SAMPLES
 from compare.scored import some
 from compare.solvers.catalogue import SOLVERS, select
@@ -14,8 +15,10 @@ from compare.solvers.events import event_of
 from compare.solvers.records import SolverEntry, SolverStudy
 from compare.solvers.score import Asked, events, score_solver
 from compare.solvers.solver import Question
-from reference import Pendulum, __version__
+from compare.study import family_of, inputs_shown, problems_of
+from reference import __version__
 from reference.arithmetic.exact import as_number, exact, positive
+from reference.family import Family
 from reference.routes.agreement import ROUTES
 
 if TYPE_CHECKING:
@@ -36,38 +39,37 @@ TINY, HUGE = sys.float_info.min, sys.float_info.max
 
 
 def study(
-    theta0: Sequence[Any] = (1.0,),
-    g: Any = 9.81,
-    length: Any = 1.0,
-    t_end: Any = 10.0,
+    problem: Family | str = "pendulum",
+    t_end: Any = None,
     rtol: Sequence[float] = QUICK_RTOL,
     solvers: Sequence[str] | None = None,
     max_evaluations: int = QUICK_LIMIT,
     progress: Callable[[str], None] | None = None,
     executor: Executor | None = None,
+    **inputs: Any,
 ) -> SolverStudy:
-    """Ask solvers for the pendulum released at each amplitude, over 0 <= t <= t_end at each tolerance.
+    """Ask solvers for the motions of a family, up to an end at each tolerance.
 
     Args:
-        theta0: amplitudes in rad, each in (0, pi).
-        g: acceleration of gravity in m/s^2.
-        length: length in m.
-        t_end: the last time in s.
+        problem: the family, or its name.
+        t_end: the last time in s, or in the problem's own unit; where its march ends by default if None.
         rtol: relative tolerances, each in (0, 1); the absolute one is the same.
         solvers: names of solvers or packages; all if None.
         max_evaluations: of the right-hand side that a solver is granted for one answer.
         progress: called with a line on what is being done.
         executor: takes its share of what is not timed: the events, after all states; solvers are timed here, alone.
+        inputs: of the family, by name; of the one that varies a sequence.
 
     Raises:
         ValueError: an argument is outside its range, or a name unknown.
         TypeError: an argument is of the wrong kind.
     """
-    problems = [Pendulum(amplitude, g, length) for amplitude in some(theta0, "theta0")]
-    if len({float(problem.theta0) for problem in problems}) < len(problems):
-        raise ValueError("theta0 has one amplitude twice, to a double's precision; each is accepted once.")
+    family = problem if isinstance(problem, Family) else family_of(problem)
+    problems = problems_of(family, inputs)
+    marching = family.comparison.forms[0][1]
+    ends = [marching.end.of(one, None) if t_end is None else exact(t_end, "t_end") for one in problems]
     chosen = SOLVERS if solvers is None else select(some(solvers, "solvers"))
-    asked = [list(questions(problem, t_end, rtol, max_evaluations)) for problem in problems]
+    asked = [list(questions(one, end, rtol, max_evaluations)) for one, end in zip(problems, ends, strict=True)]
     answers: list[Asked] = []
     for solver in chosen:
         for series in asked if solver.version is not None else ():
@@ -76,25 +78,25 @@ def study(
             answers += map(Asked, [solver] * len(series), series, score_solver(solver, series))
     found = events(answers, executor, progress)
     return SolverStudy(
-        problem="pendulum",
+        problem=family.comparison.command,
         parameters={
-            "theta0": [as_number(problem.theta0) for problem in problems],
-            "g": as_number(problems[0].g),
-            "length": as_number(problems[0].length),
-            "t_end": asked[0][0].end,
+            **inputs_shown(family, inputs, problems),
+            "t_end": [series[0].end for series in asked] if len(set(ends)) > 1 else asked[0][0].end,
             "rtol": [question.rtol for question in asked[0]],
             "samples": len(asked[0][0].times) - 1,
         },
         reference={
             "version": __version__,
             "routes": ["enclosure", *ROUTES],
-            "definition": "theta'' = -(g/length) sin(theta), theta(0) = theta0, theta'(0) = 0",
-            "truth": "the state at exactly the binary64 times asked for, and the passages through the bottom, proven",
+            "definition": problems[0].equation,
+            "truth": "the state at exactly the binary64 times asked for"
+            + (f", and the {problems[0].event_words}, proven" if event_of(problems[0]) else ", proven"),
         },
         engine=facts(max_evaluations),
         solvers=tuple(_entry(solver) for solver in chosen),
         error_vs_rtol=tuple(answer.cell for answer in answers),
         events=tuple(found),
+        cases=tuple(map(case_of, problems)),
     )
 
 

@@ -13,6 +13,7 @@ from compare.solvers.solver import CALLS
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
 
+    from compare.measure.records import Case
     from compare.solvers.records import EventCell, SolverCell, SolverStudy
 
 __all__ = ["COLUMNS", "TABLES", "sections"]
@@ -23,7 +24,7 @@ COLUMNS = {
         "solver",
         "rtol",
         "used",
-        "theta0",
+        "case",
         "max_error",
         "end_error",
         "velocity_error",
@@ -33,7 +34,7 @@ COLUMNS = {
         "said",
         "stopped",
     ),
-    "events": ("solver", "rtol", "theta0", "expected", "matched", "spurious", "max_error", "first_only", "failure"),
+    "events": ("solver", "rtol", "case", "expected", "matched", "spurious", "max_error", "first_only", "failure"),
 }
 OTHER = "^"
 _NO_STATES = "- means that the solver failed or was stopped; what it said is in the last table"
@@ -45,13 +46,13 @@ TOLERANCES = {"rtol", "tol"}
 def sections(study: SolverStudy, width: int = 100) -> Iterator[Section]:
     """The readable tables: who was asked, then amplitude by amplitude what they answered, then what they said."""
     yield from _who(study, width)
-    for theta0 in dict.fromkeys(cell.theta0 for cell in study.error_vs_rtol):
-        at = f"theta0 = {theta0!r} rad"
-        cells = [cell for cell in study.error_vs_rtol if cell.theta0 == theta0]
-        yield from _cells(study, cells, at, width)
-        events = [event for event in study.events if event.theta0 == theta0]
+    for case in study.cases:
+        cells = [cell for cell in study.error_vs_rtol if cell.case == case]
+        if cells:
+            yield from _cells(study, cells, case, width)
+        events = [event for event in study.events if event.case == case]
         if events:
-            yield _events(events, at, width)
+            yield _events(events, case, width)
     yield from _said(study, width)
 
 
@@ -67,7 +68,8 @@ def _who(study: SolverStudy, width: int) -> Iterator[Section]:
         yield Section("missing-solvers", "Missing", (Grid(labels, tuple(missing.items())),))
 
 
-def _cells(study: SolverStudy, cells: Sequence[SolverCell], at: str, width: int) -> Iterator[Section]:
+def _cells(study: SolverStudy, cells: Sequence[SolverCell], case: Case, width: int) -> Iterator[Section]:
+    at = case.label
     dials = {entry.solver: entry.dial for entry in study.solvers}
     other = any(map(_is_other, cells, (dials[cell.solver] for cell in cells)))
     failed = any(cell.failure for cell in cells)
@@ -77,7 +79,7 @@ def _cells(study: SolverStudy, cells: Sequence[SolverCell], at: str, width: int)
     def error(cell: SolverCell) -> str:
         return _digits(cell.max_error) + (OTHER if _is_other(cell, dials[cell.solver]) else "")
 
-    title = f"Error against rtol, {at}: largest |theta - exact|, in rad"
+    title = f"Error against rtol, {at}: largest {case.absolute}"
     yield _table(f"error-vs-rtol-{text_table.slug(at)}", title, cells, error, width, notes)
     counts = {entry.solver: entry.counts for entry in study.solvers}
     strange = [f"{name}: {counts[name]}" for name in dict.fromkeys(c.solver for c in cells) if counts[name] != CALLS]
@@ -102,13 +104,16 @@ def _other_dials(dials: dict[str, str], cells: Sequence[SolverCell]) -> dict[str
     return found
 
 
-def _events(events: Sequence[EventCell], at: str, width: int) -> Section:
+def _events(events: Sequence[EventCell], case: Case, width: int) -> Section:
+    at = case.label
+
     def entry(event: EventCell) -> str:
         few = f" {event.matched} of {event.expected}" if event.matched < event.expected else ""
         more = f" +{event.spurious}" if event.spurious else ""
         return _digits(event.max_error) + few + more
 
-    title = f"Events, {at}: largest |t - exact| over the passages through the bottom, in s"
+    units = f", in {case.step}" if case.step else ""
+    title = f"Events, {at}: largest |t - exact| over the {case.events}{units}"
     first = [event.solver for event in events if event.first_only]
     notes = [_EVENTS_NOTE] if any(event.matched < event.expected or event.spurious for event in events) else []
     notes += [f"the first passage only: {', '.join(dict.fromkeys(first))}"] if first else []

@@ -20,9 +20,8 @@ def test_the_motion_has_an_invariant_and_two_places() -> None:
     )
     for fit in found.order:
         assert fit.fitted_order == pytest.approx(fit.declared_order, abs=0.08)
-    assert {invariant.drift for drift in found.energy_drift for invariant in drift.case.invariants} == {
-        ("Invariant", "(I - I0)/I0")
-    }
+    named = {invariant.drift for drift in found.energy_drift for invariant in drift.case.invariants}
+    assert named == {("Invariant", "(I - I0)/I0")}
     assert {drift.case.cycle for drift in found.energy_drift} == {"period"}
     assert all(0 < drift.max_drift_above_rest < 1e-3 for drift in found.energy_drift)
 

@@ -9,6 +9,7 @@ import math
 from dataclasses import replace
 
 import pytest
+from made_study import made_case
 
 from compare.__main__ import main
 from compare.show import render
@@ -18,12 +19,13 @@ from compare.solvers.records import EventCell, SolverCell, SolverEntry, SolverSt
 from compare.solvers.study import QUICK_LIMIT, QUICK_RTOL
 from compare.solvers.table import TABLES, sections
 
+CASE = made_case(1.0)
 RTOL = tuple(float(f"1e-{k}") for k in range(3, 14))
 
 
 def cell(solver, rtol, error=None, failure="", **options):
     nan = error is None
-    values = {"used": math.nan if nan else rtol, "said": "", "stopped": False, "theta0": 1.0, **options}
+    values = {"used": math.nan if nan else rtol, "said": "", "stopped": False, "case": CASE, **options}
     error = math.nan if nan else error
     work = None if nan else int(rtol**-0.2 * 100)
     return SolverCell(
@@ -55,9 +57,9 @@ def made_study():
         for rtol in RTOL
     ]
     steps = [cell("steps.Verlet", rtol, rtol * 3, used=rtol**0.5) for rtol in RTOL]
-    events = [EventCell("good.RK", rtol, 1.0, 9, 9, 0, rtol / 7, first_only=False, failure="") for rtol in RTOL]
-    events += [EventCell("raised.RK", rtol, 1.0, 9, 7, 2, rtol / 7, first_only=False, failure="") for rtol in RTOL]
-    events += [EventCell("steps.Verlet", rtol, 1.0, 1, 1, 0, rtol / 7, first_only=True, failure="") for rtol in RTOL]
+    events = [EventCell("good.RK", rtol, CASE, 9, 9, 0, rtol / 7, first_only=False, failure="") for rtol in RTOL]
+    events += [EventCell("raised.RK", rtol, CASE, 9, 7, 2, rtol / 7, first_only=False, failure="") for rtol in RTOL]
+    events += [EventCell("steps.Verlet", rtol, CASE, 1, 1, 0, rtol / 7, first_only=True, failure="") for rtol in RTOL]
     return SolverStudy(
         problem="pendulum",
         parameters={"theta0": [1.0], "t_end": 10.0},
@@ -73,6 +75,7 @@ def made_study():
         ),
         error_vs_rtol=(*good, *bad, *raised, *steps),
         events=tuple(events),
+        cases=(CASE,),
     )
 
 

@@ -74,6 +74,7 @@ class Pendulum(SeparableProblem):
     space: ClassVar[StateSpace] = replace(SWING, axes=("angle θ [rad]", "angular velocity ω [rad/s]"))
     invariants: ClassVar[tuple[Invariant, ...]] = (ENERGY_ABOVE_REST,)
     trial: ClassVar[Trial] = ABOUT_REST
+    event_words: ClassVar[str] = "passages through the bottom"
 
     def __init__(self, theta0: Any, g: Any = 9.81, length: Any = 1.0, omega0: Any = None) -> None:
         going = 0 if omega0 is None else omega0
