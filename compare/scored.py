@@ -177,8 +177,10 @@ def named(methods: Sequence[str] | None) -> tuple[Method, ...]:
 
 
 def fits(method: Method, problem: Problem) -> bool:
-    """Whether the problem has what the method needs: positions apart from momenta, or a conserved quantity."""
+    """Whether the problem has what the method needs: positions apart from momenta, q'' = F(q), or an invariant."""
     if method.separable_only and not problem.positions:
+        return False
+    if method.second_order_only and not problem.second_order:
         return False
     return method.family != "conservative" or bool(problem.invariants)
 

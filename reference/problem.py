@@ -9,12 +9,14 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
+from reference.arithmetic.dual import DualArithmetic
 from reference.arithmetic.exact import exact_array, positive
 from reference.arithmetic.limbs import MAX_BITS, MAX_LIMBS, to_limbs
-from reference.arithmetic.namespaces import MPMATH
+from reference.arithmetic.namespaces import MPMATH, NUMPY
 from reference.arithmetic.precision import mp
 from reference.certified import Certified
 from reference.names import unknown
+from reference.once import cached_property
 from reference.routes import enclosure, quadrature
 
 if TYPE_CHECKING:
@@ -26,7 +28,7 @@ if TYPE_CHECKING:
     from reference.orbits import Orbits
     from reference.row_domains import Domain
 
-__all__ = ["APART", "Problem", "SeparableProblem"]
+__all__ = ["APART", "HamiltonianProblem", "Problem", "SeparableProblem"]
 
 TAYLOR_BITS = 1024
 """The Taylor route serves what needs at most this working precision."""
@@ -104,6 +106,16 @@ class Problem:
     def positions(self) -> int:
         """How many components are positions apart from momenta; 0 where the equation does not split into both."""
         return 0
+
+    @property
+    def second_order(self) -> bool:
+        """Whether the equation is q'' = F(q): it splits, is without the time, and the velocity is the momentum."""
+        return False
+
+    @property
+    def original(self) -> Problem:
+        """The problem as it was asked for: another one may stand for it where it is marched."""
+        return self
 
     @property
     def structure(self) -> Any:
@@ -282,15 +294,21 @@ class Problem:
 
 @dataclass(frozen=True)
 class SeparableProblem(Problem):
-    """A problem with q' = v(t, p) and p' = F(t, q), positions q first in the state."""
+    """A problem with q' = v(p) and p' = F(t, q), positions q first in the state."""
 
     @property
     def positions(self) -> int:
         return len(self.space.positions)
 
+    @property
+    def second_order(self) -> bool:
+        trial = [Fraction(3 * k + 2, 7) for k in range(self.positions)]
+        found = self.velocity(NUMPY, list(map(float, trial)), {n: float(v) for n, v in self.parameters.items()})
+        return self.autonomous and list(found) == list(map(float, trial))
+
     @staticmethod
-    def velocity(m: Arithmetic, t: Any, momenta: Sequence[Any], p: dict[str, Any]) -> tuple[Any, ...]:
-        """q' as a function of the time, the momenta and the parameters."""
+    def velocity(m: Arithmetic, momenta: Sequence[Any], p: dict[str, Any]) -> tuple[Any, ...]:
+        """q' as a function of the momenta and the parameters."""
         raise NotImplementedError
 
     @staticmethod
@@ -300,6 +318,89 @@ class SeparableProblem(Problem):
 
     @classmethod
     def derivative(cls, m: Arithmetic, t: Any, y: Sequence[Any], p: dict[str, Any]) -> tuple[Any, ...]:
-        """(q, p)' = (v(t, p), F(t, q))."""
+        """(q, p)' = (v(p), F(t, q))."""
         count = len(cls.space.positions)
-        return *cls.velocity(m, t, y[count:], p), *cls.force(m, t, y[:count], p)
+        return *cls.velocity(m, y[count:], p), *cls.force(m, t, y[:count], p)
+
+
+@dataclass(frozen=True)
+class HamiltonianProblem(Problem):
+    """A problem with q' = dH/dp and p' = -dH/dq, of a Hamiltonian H(t, q, p) that is written once.
+
+    Its first invariant is the value of H where that is without the time.  Where H = T(p) + V(t, q) it splits into kicks
+    and drifts; whether it does is seen at its slopes.
+    """
+
+    def hamiltonian(self, m: Arithmetic, t: Any, q: Sequence[Any], p: Sequence[Any], c: dict[str, Any]) -> Any:
+        """H as a function of the time, the positions, their momenta and the parameters, in any arithmetic."""
+        raise NotImplementedError
+
+    def _slopes(self, m: Any, t: Any, q: Sequence[Any], p: Sequence[Any], c: dict[str, Any]) -> list[Any]:
+        """dH/dq, then dH/dp."""
+        duals, size = DualArithmetic(m, 2 * len(q)), len(q)
+        positions = [duals.variable(value, i) for i, value in enumerate(q)]
+        momenta = [duals.variable(value, size + i) for i, value in enumerate(p)]
+        return list(self.hamiltonian(duals, t, positions, momenta, c).slopes)
+
+    def derivative(self, m: Arithmetic, t: Any, y: Sequence[Any], p: dict[str, Any]) -> tuple[Any, ...]:
+        """(dH/dp, -dH/dq) in the order of the state."""
+        where = [*self.space.places(self.space.positions), *self.space.places(self.space.momenta)]
+        size = len(where) // 2
+        slopes = self._slopes(m, t, [y[i] for i in where[:size]], [y[i] for i in where[size:]], p)
+        rates = [*slopes[size:], *(-slope for slope in slopes[:size])]
+        return tuple(rate for _, rate in sorted(zip(where, rates, strict=True), key=lambda pair: pair[0]))
+
+    def invariant(self, m: Arithmetic, y: Sequence[Any], p: dict[str, Any]) -> Any:
+        """The value of H, which is conserved where it is without the time."""
+        q, momenta = ([y[i] for i in self.space.places(names)] for names in (self.space.positions, self.space.momenta))
+        return self.hamiltonian(m, None, q, momenta, p)
+
+    def kinetic(self, m: Arithmetic, y: Sequence[Any], p: dict[str, Any]) -> Any:
+        """What the momenta make of H: H(q, p) - H(q, 0)."""
+        q, momenta = ([y[i] for i in self.space.places(names)] for names in (self.space.positions, self.space.momenta))
+        still = [m.number(Fraction(0))] * len(momenta)
+        return self.hamiltonian(m, None, q, momenta, p) - self.hamiltonian(m, None, q, still, p)
+
+    @property
+    def positions(self) -> int:
+        return len(self.space.positions) if self._splits else 0
+
+    @cached_property
+    def _splits(self) -> bool:
+        """Whether dH/dq is the same at other momenta, and dH/dp at other positions, and positions stand first."""
+        size = len(self.space.positions)
+        if self.space.components != (*self.space.positions, *self.space.momenta):
+            return False
+        c = {name: float(value) for name, value in self.parameters.items()}
+        start = [float(value) for value in self.start]
+        here = self._slopes(NUMPY, 0.0, start[:size], start[size:], c)
+        moved = [value * FAR[i % len(FAR)] + NEAR[i % len(NEAR)] for i, value in enumerate(start)]
+        other_momenta = self._slopes(NUMPY, 0.0, start[:size], moved[size:], c)
+        other_positions = self._slopes(NUMPY, 0.0, moved[:size], start[size:], c)
+        pairs = [
+            *zip(here[:size], other_momenta[:size], strict=True),
+            *zip(here[size:], other_positions[size:], strict=True),
+        ]
+        return all(abs(a - b) <= SAME * (abs(a) + abs(b)) for a, b in pairs)
+
+    @property
+    def second_order(self) -> bool:
+        trial = [(3 * k + 2) / 7 for k in range(self.positions)]
+        c = {name: float(value) for name, value in self.parameters.items()}
+        return bool(trial) and self.autonomous and [float(v) for v in self.velocity(NUMPY, trial, c)] == trial
+
+    def velocity(self, m: Arithmetic, momenta: Sequence[Any], p: dict[str, Any]) -> tuple[Any, ...]:
+        """dH/dp, at the positions of the start: of a Hamiltonian that splits it is the same everywhere."""
+        size = len(self.space.positions)
+        return tuple(self._slopes(m, None, [m.number(value) for value in self.start[:size]], momenta, p)[size:])
+
+    def force(self, m: Arithmetic, t: Any, positions: Sequence[Any], p: dict[str, Any]) -> tuple[Any, ...]:
+        """-dH/dq, at the momenta of the start."""
+        size = len(positions)
+        momenta = [m.number(value) for value in self.start[size:]]
+        return tuple(-slope for slope in self._slopes(m, t, positions, momenta, p)[:size])
+
+
+FAR, NEAR = (1.1, 0.9, 1.2), (0.05, -0.07, 0.03)
+"""By such factors and terms a state is moved to see on what slopes depend."""
+SAME = 1e-12

@@ -93,7 +93,7 @@ class BoundSystem:
         return tuple(self._problem.derivative(self._m, NO_TIME, y, self._parameters))
 
     def velocity(self, momenta: State) -> State:
-        return tuple(self._problem.velocity(self._m, NO_TIME, momenta, self._parameters))
+        return tuple(self._problem.velocity(self._m, momenta, self._parameters))
 
     def force(self, positions: State) -> State:
         return tuple(self._problem.force(self._m, NO_TIME, positions, self._parameters))

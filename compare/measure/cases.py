@@ -38,7 +38,7 @@ def _case(problem: Problem, text: str) -> Case:
         label=", ".join([*([form.words] if form else []), *words]),
         error=_error(problem),
         unit=_units(problem, space.positions[0]) if space.scale == "units" else "",
-        samples="times" if space.along is None or problem.row("state").over == "time" else "points",
+        samples="times" if space.along is None else "points",
         step=step,
         invariants=problem.invariants,
         energy=problem.serves("energy"),
@@ -99,7 +99,7 @@ def _lacks(problem: Problem) -> dict[str, str]:
         found["phase"] = problem.lacks_of_orbits.removesuffix(".")
     if not orbital or not math.isfinite(problem.cycle()):
         found["period"] = "the exact motion has no period" + ("" if orbital else " that orbits are known for")
-    if space.along is not None and problem.row("state").over != "time":
+    if space.along is not None:
         found["growth"] = "along a curve there is no time to grow in"
     if space.odd is None and not space.rates:
         found["defects"] = "there are no momenta, and turning back means nothing"

@@ -83,7 +83,7 @@ def _form_defects(runs: Sequence[Run]) -> list[FormDefect]:
     method, course = runs[0].method, runs[0].course
     method = method.base if isinstance(method, Compensated) else method
     problem = course.problem
-    known = problem.space.momenta or (problem.space.velocities and problem.invariants)
+    known = problem.space.momenta or (problem.space.velocities and (problem.positions or problem.invariants))
     if not known or method.memory(len(problem.state_names), problem.positions):
         return [NO_FORM] * len(runs)
     largest = max(float(run.course.h) for run in runs)
@@ -117,9 +117,9 @@ def _compiled(method: Method, course: Course, iterations: int) -> Any:
 
 
 def _canonical(course: Course) -> Any:
-    """d(q, p)/d(q, q') row by row, p the energy's slopes by q'; None where the state has the momenta themselves."""
+    """d(q, p)/d(q, q') row by row, p the energy's slopes by q'; None where the rates are momenta."""
     problem = course.problem
-    if problem.space.momenta:
+    if problem.space.momenta or problem.positions:
         return None
     variables, system = _symbols(course)
     gradient = system.gradient(tuple(variables))

@@ -125,7 +125,7 @@ def growths(runs: Sequence[Run]) -> list[Growth]:
 
     Along a curve there is no time to grow in.
     """
-    return [found for run in runs if run.course.problem.space.along is None for found in _of(run)]
+    return [found for run in runs if run.course.problem.original.space.along is None for found in _of(run)]
 
 
 def _of(run: Run) -> Iterator[Growth]:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from compare.march.autonomous import autonomous
 from compare.march.equation import FormatArithmetic
 from compare.march.lanes import Lane, drift_scales, sample_steps, start_levels
 from compare.measure.cases import case_of
@@ -38,6 +39,7 @@ class Course:
     samples: int = SAMPLES
 
     def __post_init__(self) -> None:
+        object.__setattr__(self, "problem", autonomous(self.problem))
         for name, value in zip(self.problem.state_names, self.problem.start, strict=True):
             if value and not self.fmt.number(value):
                 raise ValueError(f"{name} starts at {float(value)}, which {self.fmt.name} cannot hold.")
@@ -85,7 +87,7 @@ class Course:
     @cached_property
     def case(self) -> Case:
         """The problem in a few words."""
-        return case_of(self.problem)
+        return case_of(self.problem.original)
 
     @cached_property
     def reach(self) -> Reach:

@@ -37,13 +37,13 @@ def _prepare(question: Question, method: str) -> Callable[[], Answer]:
 
         def flow(h: float, t: float, y: Any) -> np.ndarray:
             """The drift by h, then the kick by h."""
-            q = y[:size] + h * counted.velocity(t, y[size:])
+            q = y[:size] + h * counted.velocity(y[size:])
             return np.concatenate([q, y[size:] + h * counted.force(t, q)])
 
         def adjoint(h: float, t: float, y: Any) -> np.ndarray:
             """The kick by h, then the drift by h."""
             p = y[size:] + h * counted.force(t, y[:size])
-            return np.concatenate([y[:size] + h * counted.velocity(t, p), p])
+            return np.concatenate([y[:size] + h * counted.velocity(p), p])
 
         system = HamSys(ndof=size, chi=flow, chi_star=adjoint)
         found = system.integrate(question.start, question.times, options)

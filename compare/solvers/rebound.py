@@ -20,7 +20,7 @@ AXES = ("x", "y", "z")
 def _solves(question: Question) -> bool:
     """Whether q' = p, in at most three dimensions: a particle has no other kinematics."""
     momenta = np.arange(1.0, 1.0 + question.positions)
-    return 0 < question.positions <= len(AXES) and np.array_equal(Counted(question).velocity(0.0, momenta), momenta)
+    return 0 < question.positions <= len(AXES) and np.array_equal(Counted(question).velocity(momenta), momenta)
 
 
 def _prepare(question: Question, mode: str | None = None) -> Callable[[], Answer]:

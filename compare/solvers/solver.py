@@ -55,9 +55,9 @@ class Counted:
         self.count()
         return self._problem.derivative(NUMPY, t, y, self._parameters)
 
-    def velocity(self, t: float, momenta: Any) -> Any:
+    def velocity(self, momenta: Any) -> Any:
         """dq/dt of a separable problem, which costs nothing beside the force and is not counted."""
-        return np.asarray(self._problem.velocity(NUMPY, t, momenta, self._parameters))
+        return np.asarray(self._problem.velocity(NUMPY, momenta, self._parameters))
 
     def force(self, t: float, positions: Any) -> Any:
         """dp/dt of a separable problem."""

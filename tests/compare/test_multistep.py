@@ -194,7 +194,7 @@ def test_lanes_with_a_memory_do_not_mix() -> None:
 def test_a_velocity_that_is_not_the_momentum_is_refused() -> None:
     class Heavy(Pendulum):
         @staticmethod
-        def velocity(m: object, t: object, momenta: tuple, p: dict) -> tuple:  # noqa: ARG004
+        def velocity(m: object, momenta: tuple, p: dict) -> tuple:  # noqa: ARG004
             return (momenta[0] / 2,)
 
     with pytest.raises(ValueError, match="stormer4 marches q'' = F"):

@@ -102,6 +102,7 @@ class Projected(OneStep):
     family: str = "conservative"
     symplectic: bool = False
     separable_only: bool = False
+    second_order_only: ClassVar[bool] = False
 
     @property
     def stages(self) -> int:
@@ -146,6 +147,7 @@ class _Increment(OneStep):
     family: str = "conservative"
     symplectic: bool = False
     separable_only: bool = False
+    second_order_only: ClassVar[bool] = False
 
     gain: ClassVar[tuple[int, int]]
     """Bits that an iteration gains: so many times those of x, and so many more."""

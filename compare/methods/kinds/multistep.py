@@ -8,7 +8,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from itertools import pairwise
 from operator import add, sub
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from compare.methods.kinds import newton
 from compare.methods.kinds.increment import increment, part
@@ -119,6 +119,7 @@ class LinearMultistep:
     family: str = "multistep"
     symplectic: bool = False
     separable_only: bool = False
+    second_order_only: ClassVar[bool] = False
 
     def __post_init__(self) -> None:
         if len(self.alpha) != len(self.beta):
@@ -216,6 +217,7 @@ class PredictorCorrector:
     family: str = "multistep"
     symplectic: bool = False
     separable_only: bool = False
+    second_order_only: ClassVar[bool] = False
 
     def __post_init__(self) -> None:
         if not self.predictor.explicit or self.corrector.explicit:

@@ -155,6 +155,7 @@ class Tableau(OneStep):
     family: str = "explicit one-step"
     aliases: tuple[str, ...] = ()
     separable_only: bool = False
+    second_order_only: ClassVar[bool] = False
     embedded: tuple[Embedded, ...] = ()
     nodes: tuple[Coefficient, ...] = ()
 
@@ -251,6 +252,7 @@ class Splitting(OneStep):
     family: str = "symplectic, explicit"
     symplectic: bool = True
     separable_only: bool = True
+    second_order_only: ClassVar[bool] = False
     nystrom: bool = False
 
     def __post_init__(self) -> None:

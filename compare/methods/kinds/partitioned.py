@@ -32,6 +32,7 @@ class Partitioned(OneStep):
     family: str = "implicit"
     aliases: tuple[str, ...] = ()
     separable_only: bool = True
+    second_order_only: ClassVar[bool] = False
 
     def __post_init__(self) -> None:
         for table in (self.matrix, self.hat):

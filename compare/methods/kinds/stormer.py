@@ -46,6 +46,7 @@ class StormerCowell:
     family: str = "multistep"
     symplectic: bool = False
     separable_only: bool = True
+    second_order_only: ClassVar[bool] = True
 
     def __post_init__(self) -> None:
         if sum(self.beta) != 1:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from compare.methods.kinds.protocol import OneStep
 
@@ -29,6 +29,7 @@ class Taylor(OneStep):
     family: str = "Taylor"
     symplectic: bool = False
     separable_only: bool = False
+    second_order_only: ClassVar[bool] = False
 
     @property
     def stages(self) -> int:

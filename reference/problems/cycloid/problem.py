@@ -113,7 +113,7 @@ class Cycloid(SeparableProblem):
         return ""
 
     @staticmethod
-    def velocity(m: Arithmetic, t: Any, momenta: Sequence[Any], p: dict[str, Any]) -> tuple[Any, ...]:
+    def velocity(m: Arithmetic, momenta: Sequence[Any], p: dict[str, Any]) -> tuple[Any, ...]:
         """The rate of the arc length."""
         return (momenta[0],)
 

@@ -282,7 +282,7 @@ class CycloidalPendulum(SeparableProblem, Swinging):
         return Harmonic(self.start, self._w())
 
     @staticmethod
-    def velocity(m: Arithmetic, t: Any, momenta: Sequence[Any], p: dict[str, Any]) -> tuple[Any, ...]:
+    def velocity(m: Arithmetic, momenta: Sequence[Any], p: dict[str, Any]) -> tuple[Any, ...]:
         """The rate of the arc length."""
         return (momenta[0],)
 

@@ -103,7 +103,7 @@ class LinearPendulum(SeparableProblem):
         return of_the_start(self.theta0, self.omega0)
 
     @staticmethod
-    def velocity(m: Arithmetic, t: Any, momenta: Sequence[Any], p: dict[str, Any]) -> tuple[Any, ...]:
+    def velocity(m: Arithmetic, momenta: Sequence[Any], p: dict[str, Any]) -> tuple[Any, ...]:
         """theta' = omega."""
         return (momenta[0],)
 

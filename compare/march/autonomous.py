@@ -1,0 +1,176 @@
+"""An equation that depends on the time, with the time as a component of its state: y' = f(t, y), t' = 1.
+
+So Runge-Kutta methods take the time at their own nodes, and kicks see the time that the drifts have come to: t stands
+among the positions, with the rate one.  Methods for q'' = F(q) alone have no place for it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from reference.arithmetic.exact import exact_array
+from reference.declaration import Quantity
+from reference.problem import Problem
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
+
+    from reference.certified import Certified
+    from reference.declaration import Row
+
+__all__ = ["autonomous"]
+
+
+def autonomous(problem: Problem) -> Problem:
+    """The problem itself, or where its equation depends on the time the same with the time in its state."""
+    return problem if problem.autonomous else _WithTime(problem)
+
+
+@dataclass(frozen=True, repr=False)
+class _WithTime(Problem):
+    """A problem whose state is (q, t, p) where it splits into kicks and drifts, else (y, t)."""
+
+    original: Problem
+
+    def __post_init__(self) -> None:
+        inner = self.original
+        space, components = inner.space, list(inner.space.components)
+        time = next(name for name in ("t", "time", "instant") if name not in components)
+        components.insert(self._place, time)
+        odd = None if space.odd is None else (*space.odd, time)
+        intervals = list(inner.trial.states)
+        intervals.insert(self._place, (0.0, 3.0))
+        declared = {
+            "name": inner.name,
+            "rows": inner.rows,
+            "invariants": inner.invariants,
+            "form": inner.form,
+            "space": replace(space, along=time, odd=odd, order=tuple(components)),
+            "trial": replace(inner.trial, states=tuple(intervals)),
+        }
+        for name, value in declared.items():
+            object.__setattr__(self, name, value)
+
+    @property
+    def _place(self) -> int:
+        """Where the time stands."""
+        return self.original.positions or len(self.original.space.components)
+
+    def __repr__(self) -> str:
+        return repr(self.original)
+
+    def __getattr__(self, name: str) -> Any:
+        """An invariant, or the scale of one, of the state without the time."""
+        of_the_state = {one.value for one in self.original.invariants} | {one.scale for one in self.original.invariants}
+        if name not in of_the_state:
+            raise AttributeError(f"{type(self).__name__} has no attribute {name!r}")
+        value = getattr(self.original, name)
+        return lambda m, y, p: value(m, self._split(y)[1], p)
+
+    def _split(self, y: Sequence[Any]) -> tuple[Any, list[Any]]:
+        """The time, and the state without it."""
+        return y[self._place], [*y[: self._place], *y[self._place + 1 :]]
+
+    def _with(self, state: Sequence[Any], time: Any) -> tuple[Any, ...]:
+        return *state[: self._place], time, *state[self._place :]
+
+    @property
+    def parameters(self) -> dict[str, Fraction]:
+        return self.original.parameters
+
+    @property
+    def start(self) -> tuple[Fraction, ...]:
+        return self._with(self.original.start, Fraction(0))
+
+    @property
+    def positions(self) -> int:
+        return self.original.positions and self.original.positions + 1
+
+    @property
+    def structure(self) -> Any:
+        return type(self), self.original.structure
+
+    def derivative(self, m: Any, t: Any, y: Sequence[Any], p: dict[str, Any]) -> tuple[Any, ...]:
+        """(y', 1)."""
+        del t
+        now, state = self._split(y)
+        return self._with(tuple(self.original.derivative(m, now, state, p)), m.number(Fraction(1)))
+
+    def velocity(self, m: Any, momenta: Sequence[Any], p: dict[str, Any]) -> tuple[Any, ...]:
+        """(q', 1)."""
+        split: Any = self.original
+        return *split.velocity(m, momenta, p), m.number(Fraction(1))
+
+    def force(self, m: Any, t: Any, positions: Sequence[Any], p: dict[str, Any]) -> tuple[Any, ...]:
+        """p' at the time among the positions."""
+        del t
+        split: Any = self.original
+        found: tuple[Any, ...] = split.force(m, positions[-1], positions[:-1], p)
+        return found
+
+    def invariant(self, m: Any, y: Sequence[Any], p: dict[str, Any]) -> Any:
+        return self.original.invariant(m, self._split(y)[1], p)
+
+    def kinetic(self, m: Any, y: Sequence[Any], p: dict[str, Any]) -> Any:
+        return self.original.kinetic(m, self._split(y)[1], p)
+
+    def rate(self) -> float:
+        return self.original.rate()
+
+    def neighbour(self, rounding: Callable[[Fraction], Fraction], epsilon: Fraction) -> Problem:
+        """From the neighbour's start, at the same time."""
+        return _WithTime(self.original.neighbour(rounding, epsilon))
+
+    def working_bits(self, arguments: Sequence[Any]) -> int:
+        return self.original.working_bits(arguments)
+
+    def serves(self, row: str) -> bool:
+        return self.original.serves(row)
+
+    def row(self, name: str) -> Row:
+        """The original's row; that of the state with the time among its quantities."""
+        found = self.original.row(name)
+        if name != "state":
+            return found
+        independent = self.original.space.independent or "1"
+        time = Quantity(self.state_names[self._place], independent, "time", "t")
+        return replace(found, quantities=self._with(found.quantities, time))
+
+    def certified(self, row: str, argument: Any = None, component: int = 0) -> Certified:
+        return self.original.certified(row, argument, component)
+
+    def cycle(self) -> float:
+        return self.original.cycle()
+
+    @property
+    def inputs(self) -> dict[str, tuple[Any, str]]:
+        return self.original.inputs
+
+    @property
+    def equation(self) -> str:
+        return self.original.equation
+
+    @property
+    def lacks_of_orbits(self) -> str:
+        return self.original.lacks_of_orbits
+
+    def state(self, t: Any, limbs: int = 1) -> np.ndarray:
+        """The proven state, and the time itself to as many limbs."""
+        found = np.asarray(self.original.state(t, limbs=limbs))
+        times, shape = exact_array(t, "t")
+        parts = np.array([_limbs_of(time, limbs) for time in times]).reshape(*shape, limbs)
+        own = parts[..., 0] if limbs == 1 else parts
+        return np.insert(found, self._place, own, axis=len(shape))
+
+
+def _limbs_of(value: Fraction, count: int) -> list[float]:
+    """A rational as a sum of doubles, each the nearest to what the ones before leave."""
+    found = []
+    for _ in range(count):
+        found.append(float(value))
+        value -= Fraction(found[-1])
+    return found
