@@ -377,11 +377,8 @@ class HamiltonianProblem(Problem):
         moved = [value * FAR[i % len(FAR)] + NEAR[i % len(NEAR)] for i, value in enumerate(start)]
         other_momenta = self._slopes(NUMPY, 0.0, start[:size], moved[size:], c)
         other_positions = self._slopes(NUMPY, 0.0, moved[:size], start[size:], c)
-        pairs = [
-            *zip(here[:size], other_momenta[:size], strict=True),
-            *zip(here[size:], other_positions[size:], strict=True),
-        ]
-        return all(abs(a - b) <= SAME * (abs(a) + abs(b)) for a, b in pairs)
+        elsewhere = other_momenta[:size] + other_positions[size:]
+        return all(abs(a - b) <= SAME * (abs(a) + abs(b)) for a, b in zip(here, elsewhere, strict=True))
 
     @property
     def second_order(self) -> bool:

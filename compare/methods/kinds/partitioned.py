@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, ClassVar
 
 from compare.methods.kinds import newton
 from compare.methods.kinds.increment import advance, increment
