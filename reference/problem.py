@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
-from reference.arithmetic.dual import DualArithmetic
+from reference.arithmetic.dual import Dual, DualArithmetic
 from reference.arithmetic.exact import exact_array, positive
 from reference.arithmetic.limbs import MAX_BITS, MAX_LIMBS, to_limbs
 from reference.arithmetic.namespaces import MPMATH, NUMPY
@@ -34,6 +34,8 @@ TAYLOR_BITS = 1024
 """The Taylor route serves what needs at most this working precision."""
 APART = Fraction(1, 1 << 36)
 """By such a part a neighbour begins elsewhere: far enough for other roundings, too near for other truncation errors."""
+SEEN, STATES = 10, 16
+"""Of a motion without a period so many units of time, and so many states of a motion, are looked at."""
 ROUTE_BITS = 8192
 """No route but the enclosure serves what needs more working precision than this."""
 
@@ -148,15 +150,40 @@ class Problem:
         raise NotImplementedError
 
     def rate(self) -> float:
-        """A bound in 1/s on how fast neighbouring solutions turn or part, to choose the work of implicit methods."""
-        raise NotImplementedError
+        """How fast neighbouring solutions turn or part, in 1/s, to choose the work of implicit methods and steps.
+
+        Of itself the largest eigenvalue of df/dy at some states of the exact motion; a family may know a bound.
+        """
+        period = self.cycle()
+        end = Fraction(period) if math.isfinite(period) else Fraction(SEEN)
+        times = [end * Fraction(k, STATES) for k in range(STATES + 1)]
+        states = [list(map(float, y)) for y in self.state(times)]
+        arithmetic: Any = NUMPY
+        duals: Any = DualArithmetic(arithmetic, len(self.state_names))
+        p = {name: float(value) for name, value in self.parameters.items()}
+        found = [0.0]
+        for t, y in zip(times, states, strict=True):
+            variables = [duals.variable(value, i) for i, value in enumerate(y)]
+            rates = self.derivative(duals, float(t), variables, p)
+            slopes = [rate.slopes if isinstance(rate, Dual) else (0.0,) * len(y) for rate in rates]
+            found += np.abs(np.linalg.eigvals(np.array(slopes, dtype=float))).tolist()
+        return max(found)
 
     def neighbour(self, rounding: Callable[[Fraction], Fraction], epsilon: Fraction) -> Problem:
         """The same problem from a start close by, but by many of a format's roundings.
 
-        ``rounding`` gives the format's nearest number, ``epsilon`` its relative spacing.
+        ``rounding`` gives the format's nearest number, ``epsilon`` its relative spacing.  Of itself it is the problem
+        whose first input that is a field of it, and not zero, is smaller by 2^-36 of itself, or by 16 roundings.
+
+        Raises:
+            ValueError: no input is a field that may be moved.
         """
-        raise NotImplementedError
+        given: dict[str, Any] = {one.name: getattr(self, one.name) for one in fields(self) if one.init}
+        for name in self.inputs:
+            if isinstance(given.get(name), Fraction) and given[name]:
+                given[name] = rounding(given[name] * (1 - max(APART, 16 * epsilon)))
+                return type(self)(**given)
+        raise ValueError(f"{self!r} has no input to be moved; a problem that declares its neighbour is accepted.")
 
     def closed_form(self, m: Any) -> ClosedForm:
         """The solution in one arithmetic with elliptic functions."""
@@ -181,12 +208,19 @@ class Problem:
         return True
 
     def exact_row(self, row: str, argument: Any) -> tuple[Fraction | None, ...] | None:
-        """The values of a row that are exactly rational, which no ball could decide; None for those that are not."""
-        raise NotImplementedError
+        """The values of a row that are exactly rational, which no ball could decide; None for those that are not.
+
+        Of itself the start.
+        """
+        return self.start if row == "state" and argument == 0 else None
 
     def working_bits(self, arguments: Sequence[Any]) -> int:
-        """Bits that the closed form is expected to lose at these arguments; only speed depends on it."""
-        raise NotImplementedError
+        """Bits that the closed form is expected to lose at these arguments; only speed depends on it.
+
+        Of itself those of the latest time.
+        """
+        latest = max((abs(t) for t in arguments if isinstance(t, Fraction)), default=Fraction(0))
+        return int(latest).bit_length()
 
     def by_route(
         self, route: str, row: str, arguments: Sequence[Any], digits: int

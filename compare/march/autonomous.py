@@ -34,10 +34,10 @@ def autonomous(problem: Problem) -> Problem:
 class _WithTime(Problem):
     """A problem whose state is (q, t, p) where it splits into kicks and drifts, else (y, t)."""
 
-    original: Problem
+    inner: Problem
 
     def __post_init__(self) -> None:
-        inner = self.original
+        inner = self.inner
         space, components = inner.space, list(inner.space.components)
         time = next(name for name in ("t", "time", "instant") if name not in components)
         components.insert(self._place, time)
@@ -58,17 +58,17 @@ class _WithTime(Problem):
     @property
     def _place(self) -> int:
         """Where the time stands."""
-        return self.original.positions or len(self.original.space.components)
+        return self.inner.positions or len(self.inner.space.components)
 
     def __repr__(self) -> str:
-        return repr(self.original)
+        return repr(self.inner)
 
     def __getattr__(self, name: str) -> Any:
         """An invariant, or the scale of one, of the state without the time."""
-        of_the_state = {one.value for one in self.original.invariants} | {one.scale for one in self.original.invariants}
+        of_the_state = {one.value for one in self.inner.invariants} | {one.scale for one in self.inner.invariants}
         if name not in of_the_state:
             raise AttributeError(f"{type(self).__name__} has no attribute {name!r}")
-        value = getattr(self.original, name)
+        value = getattr(self.inner, name)
         return lambda m, y, p: value(m, self._split(y)[1], p)
 
     def _split(self, y: Sequence[Any]) -> tuple[Any, list[Any]]:
@@ -79,88 +79,92 @@ class _WithTime(Problem):
         return *state[: self._place], time, *state[self._place :]
 
     @property
+    def original(self) -> Problem:
+        return self.inner
+
+    @property
     def parameters(self) -> dict[str, Fraction]:
-        return self.original.parameters
+        return self.inner.parameters
 
     @property
     def start(self) -> tuple[Fraction, ...]:
-        return self._with(self.original.start, Fraction(0))
+        return self._with(self.inner.start, Fraction(0))
 
     @property
     def positions(self) -> int:
-        return self.original.positions and self.original.positions + 1
+        return self.inner.positions and self.inner.positions + 1
 
     @property
     def structure(self) -> Any:
-        return type(self), self.original.structure
+        return type(self), self.inner.structure
 
     def derivative(self, m: Any, t: Any, y: Sequence[Any], p: dict[str, Any]) -> tuple[Any, ...]:
         """(y', 1)."""
         del t
         now, state = self._split(y)
-        return self._with(tuple(self.original.derivative(m, now, state, p)), m.number(Fraction(1)))
+        return self._with(tuple(self.inner.derivative(m, now, state, p)), m.number(Fraction(1)))
 
     def velocity(self, m: Any, momenta: Sequence[Any], p: dict[str, Any]) -> tuple[Any, ...]:
         """(q', 1)."""
-        split: Any = self.original
+        split: Any = self.inner
         return *split.velocity(m, momenta, p), m.number(Fraction(1))
 
     def force(self, m: Any, t: Any, positions: Sequence[Any], p: dict[str, Any]) -> tuple[Any, ...]:
         """p' at the time among the positions."""
         del t
-        split: Any = self.original
+        split: Any = self.inner
         found: tuple[Any, ...] = split.force(m, positions[-1], positions[:-1], p)
         return found
 
     def invariant(self, m: Any, y: Sequence[Any], p: dict[str, Any]) -> Any:
-        return self.original.invariant(m, self._split(y)[1], p)
+        return self.inner.invariant(m, self._split(y)[1], p)
 
     def kinetic(self, m: Any, y: Sequence[Any], p: dict[str, Any]) -> Any:
-        return self.original.kinetic(m, self._split(y)[1], p)
+        return self.inner.kinetic(m, self._split(y)[1], p)
 
     def rate(self) -> float:
-        return self.original.rate()
+        return self.inner.rate()
 
     def neighbour(self, rounding: Callable[[Fraction], Fraction], epsilon: Fraction) -> Problem:
         """From the neighbour's start, at the same time."""
-        return _WithTime(self.original.neighbour(rounding, epsilon))
+        return _WithTime(self.inner.neighbour(rounding, epsilon))
 
     def working_bits(self, arguments: Sequence[Any]) -> int:
-        return self.original.working_bits(arguments)
+        return self.inner.working_bits(arguments)
 
     def serves(self, row: str) -> bool:
-        return self.original.serves(row)
+        return self.inner.serves(row)
 
     def row(self, name: str) -> Row:
         """The original's row; that of the state with the time among its quantities."""
-        found = self.original.row(name)
+        found = self.inner.row(name)
         if name != "state":
             return found
-        independent = self.original.space.independent or "1"
+        independent = self.inner.space.independent or "1"
         time = Quantity(self.state_names[self._place], independent, "time", "t")
         return replace(found, quantities=self._with(found.quantities, time))
 
     def certified(self, row: str, argument: Any = None, component: int = 0) -> Certified:
-        return self.original.certified(row, argument, component)
+        return self.inner.certified(row, argument, component)
 
     def cycle(self) -> float:
-        return self.original.cycle()
+        return self.inner.cycle()
 
     @property
     def inputs(self) -> dict[str, tuple[Any, str]]:
-        return self.original.inputs
+        return self.inner.inputs
 
     @property
     def equation(self) -> str:
-        return self.original.equation
+        return self.inner.equation
 
     @property
     def lacks_of_orbits(self) -> str:
-        return self.original.lacks_of_orbits
+        return self.inner.lacks_of_orbits
 
     def state(self, t: Any, limbs: int = 1) -> np.ndarray:
         """The proven state, and the time itself to as many limbs."""
-        found = np.asarray(self.original.state(t, limbs=limbs))
+        found = np.asarray(self.inner.state(t, limbs=limbs))
         times, shape = exact_array(t, "t")
         parts = np.array([_limbs_of(time, limbs) for time in times]).reshape(*shape, limbs)
         own = parts[..., 0] if limbs == 1 else parts
