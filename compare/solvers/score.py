@@ -28,7 +28,7 @@ from compare.solvers.catalogue import select
 from compare.solvers.events import exact_events
 from compare.solvers.records import EventCell, SolverCell
 from compare.solvers.solver import SolverError, StoppedError
-from reference.command.sharing import shared
+from reference.command.executors import results
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
@@ -77,7 +77,7 @@ def events(
     else:
         longest = sorted(answered, key=lambda one: one.cell.seconds or 0.0, reverse=True)
         tasks = [Task(one.solver.name, one.question, exact[one.question.problem]) for one in longest]
-        for task, cell in shared(tasks, _score, executor):
+        for task, cell in results(executor, _score, tasks, unfinished="its events were found"):
             _tell(progress, task.solver)
             found[_key(task.solver, task.question)] = cell
     cells = (found[_key(solver.name, question)] for solver, question, _ in answered)
