@@ -158,7 +158,7 @@ def results(
     if executor is None:
         yield from ((task, function(task)) for task in tasks)
         return
-    undrawn, under_way, handed = iter(tasks), 0, _Handed(executor, function)
+    undrawn, under_way, handed = iter(tasks), 0, _Handed(executor, function, on=jobs is None)
     most = at_once = None if jobs is None else AHEAD * jobs
     if jobs is None:
         at_once = getattr(executor, "_max_workers", None)
@@ -191,10 +191,14 @@ def answer(future: Future[Answer], unfinished: str) -> Answer:
 
 
 class _Handed(Generic[Task, Answer]):
-    """Tasks on their way to an executor and back: a worker that ends one is handed the next of those that wait."""
+    """Tasks on their way to an executor and back.
 
-    def __init__(self, executor: Executor, function: Callable[[Task], Answer]) -> None:
-        self._executor, self._function = executor, function
+    Where ``on`` is set, a worker that ends one is handed the next of those that wait, while this process is busy; else
+    this thread alone hands over, and begins the processes.
+    """
+
+    def __init__(self, executor: Executor, function: Callable[[Task], Answer], *, on: bool) -> None:
+        self._executor, self._function, self._on = executor, function, on
         self.waiting: deque[Task] = deque()
         self._running: set[Future[Answer]] = set()
         self._answered: SimpleQueue[tuple[Task, Future[Answer] | None]] = SimpleQueue()
@@ -216,7 +220,8 @@ class _Handed(Generic[Task, Answer]):
             return
         self._running.add(future)
         future.add_done_callback(lambda done: self._answered.put((task, done)))
-        future.add_done_callback(self.over)
+        if self._on:
+            future.add_done_callback(self.over)
 
     def back(self) -> tuple[Task, Future[Answer] | None]:
         """A task that is answered, or else one to be done here; where there is neither, the next to be answered."""
