@@ -10,7 +10,6 @@ be written, 3 where no claim fails and one is not established, 130 when interrup
 from __future__ import annotations
 
 import contextlib
-import os
 import shutil
 import sys
 from importlib import import_module
@@ -117,9 +116,9 @@ def _score(request: Request) -> None:
 
 def _study(request: Request, progress: Callable[[str], None] | None) -> Any:
     """The study of a family, on a process pool where that is worth it."""
-    from reference.command.executors import processes
+    from reference.command.executors import other_cores, processes
 
-    home, others = "compare.study", (os.cpu_count() or 1) - 1
+    home, others = "compare.study", other_cores()
     options = {**request.options, "family": request.family, "traces": request.plots, "progress": progress}
     if not others or sum(options.get("n", [WORTH_PROCESSES])) < WORTH_PROCESSES:
         return import_module(home).study(**options)
@@ -147,9 +146,9 @@ def _solvers(request: Request) -> int:
 def _solver_study(request: Request, progress: Callable[[str], None] | None) -> SolverStudy:
     """The study, on a process pool where there is a core for it; a pool begins when the first task comes to it."""
     from compare.solvers import study as solvers
-    from reference.command.executors import processes
+    from reference.command.executors import other_cores, processes
 
-    others = (os.cpu_count() or 1) - 1
+    others = other_cores()
     with processes(others) if others else contextlib.nullcontext() as executor:
         return solvers.study(**request.options, progress=progress, executor=executor)
 

@@ -19,7 +19,7 @@ from compare.methods import DEFAULT, METHODS, find
 from compare.methods.kinds.compensated import compensate
 from reference.arithmetic.exact import as_number, exact
 from reference.arithmetic.underflow import require_gradual
-from reference.command.sharing import shared
+from reference.command.executors import results
 from reference.problem import Problem
 
 if TYPE_CHECKING:
@@ -240,7 +240,8 @@ def _in_order_of_work(
     )
     tasks = [(method, courses[method.name]) for method in by_work]
     scores: dict[str, Found] = {}
-    for (method, _), found in shared(tasks, partial(_score, fmt=asked[0], wanted=asked[1]), executor):
+    function, unfinished = partial(_score, fmt=asked[0], wanted=asked[1]), "its marches were scored"
+    for (method, _), found in results(executor, function, tasks, unfinished=unfinished):
         scores[method.name] = found
         if progress is not None:
             progress(method.name)

@@ -32,6 +32,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from compare.claims.engine import Marcher
+    from compare.claims.order import Order
 
 __all__ = ["check"]
 
@@ -121,23 +122,7 @@ def _checked(candidate: Candidate, claims: Claims, scene: Scene, until: float) -
     marcher, calls, timed, name = _marcher(candidate, scene, h)
     counts = ladder(_most_steps(marcher, calls))
     still = measured(marcher, SPAN * h, counts, until)
-    finest = still.cells[-1]
-    if not math.isfinite(finest.error):
-        some = any(math.isfinite(cell.error) for cell in still.cells)
-        raise MisuseError(
-            f"{candidate.name} gives no finite states "
-            + (
-                f"with steps of h = {finest.h:.3g}, though it does with longer ones"
-                if some
-                else "however short its steps are"
-            )
-            + "; finite ones are accepted."
-        )
-    if still.kind == "own steps" and claims.order is not None:
-        raise MisuseError(
-            f"{candidate.name} chooses its own steps: its error is {still.cells[-1].error:.0e} whatever the spacing of "
-            "t, so that its order cannot be measured; no order, or a step of fixed size, is accepted."
-        )
+    _hold_measurable(candidate.name, still, claims)
     swinging = None
     if timed:
         frame = Scene(scene.problem, Frame(FRAME[0], FRAME[1] * scene.problem.rate()))
@@ -169,6 +154,27 @@ def _checked(candidate: Candidate, claims: Claims, scene: Scene, until: float) -
         advance=advance_of_a_constant_slope(candidate, scene, h) if explicit else None,
     )
     return replace(found, hint=_hint(found, marcher, SPAN * h))
+
+
+def _hold_measurable(name: str, found: Order, claims: Claims) -> None:
+    """Refuse an integrator of which an order that is claimed cannot be measured, or nothing can.
+
+    Raises:
+        MisuseError: its finest march is lost, or it chooses its own steps.
+    """
+    finest = found.cells[-1]
+    if not math.isfinite(finest.error):
+        some = any(math.isfinite(cell.error) for cell in found.cells)
+        where = f"with steps of h = {finest.h:.3g}, though it does with longer ones"
+        raise MisuseError(
+            f"{name} gives no finite states {where if some else 'however short its steps are'}; finite ones are "
+            "accepted."
+        )
+    if found.kind == "own steps" and claims.order is not None:
+        raise MisuseError(
+            f"{name} chooses its own steps: its error is {finest.error:.0e} whatever the spacing of t, so that its "
+            "order cannot be measured; no order, or a step of fixed size, is accepted."
+        )
 
 
 def _heading(candidate: Candidate, marcher: Marcher, h: float) -> Heading:

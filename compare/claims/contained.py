@@ -122,11 +122,7 @@ class _Messages:
             found = json.loads(line)
         except ValueError:
             found = None
-        return (
-            found
-            if isinstance(found, dict)
-            else {"left": "the step wrote into files of its process that it did not open"}
-        )
+        return found if isinstance(found, dict) else {"left": SPOILT}
 
 
 def _comes_to_an_end(pid: int, end: float | None) -> bool:

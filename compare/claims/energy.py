@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from compare.measure.errors import slope_with_interval
+from compare.measure.order_fit import slope_with_interval
 
 if TYPE_CHECKING:
     from compare.claims.engine import Marcher

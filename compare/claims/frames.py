@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from compare.claims.expansion import Expansion
+from compare.measure.truth import errors_of_doubles
 from reference.arithmetic.compiler import hy
 from reference.arithmetic.namespaces import NUMPY, Heyoka
 from reference.once import cached_property
@@ -147,14 +148,12 @@ class Scene:
 
     def errors(self, times: Sequence[Fraction], y: np.ndarray) -> np.ndarray:
         """y - truth, [times, state]."""
-        truth = self.problem.state(list(times), limbs=2)
         if self.frame is not None:
             s, speed, _ = self.frame.at(NUMPY, np.array([float(t) for t in times]))
             positions = self.problem.positions
             displacement = np.stack([s] * positions + [speed] * (self.dimension - positions), axis=1)
             y = y - displacement
-        found: np.ndarray = (y - truth[..., 0]) - truth[..., 1]
-        return found
+        return errors_of_doubles(self.problem, times, y)
 
     def energy(self, y: np.ndarray) -> np.ndarray:
         """(E - E0)/(E0 - Emin) of states [times, state] of the still problem."""

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from compare.measure.errors import slope_with_interval
+from compare.measure.order_fit import longest_run, slope_with_interval
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -232,15 +232,9 @@ def _range(slopes: Sequence[float], *, by_the_end: bool) -> tuple[int, int]:
     """
     targets = [median(slopes[-FINEST:])] if by_the_end else list(slopes)
     least_end = len(slopes) - FINEST if by_the_end else 0
-    best = 0, 0
     for tolerance in TOLERANCES:
-        for target in targets:
-            first = 0
-            for i, slope in enumerate(slopes):
-                if abs(slope - target) > tolerance:
-                    first = i + 1
-                elif i >= least_end and i + 2 - first >= best[1] - best[0]:
-                    best = first, i + 2
+        runs = [longest_run(slopes, target, tolerance, least_end) for target in reversed(targets)]
+        best = max(runs, key=lambda run: run[1] - run[0])
         if best[1] - best[0] >= ENOUGH:
             return best
     return (max(0, least_end), len(slopes) + 1) if by_the_end else best

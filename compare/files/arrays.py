@@ -35,9 +35,6 @@ class Column(Protocol):
     def read(self, count: int) -> Any:
         """The next ``count`` numbers."""
 
-    def finish(self) -> None:
-        """Read on to the end of what the file has, where that tells whether all was as it was written."""
-
 
 class Sliced:
     """A column of anything that is indexed as arrays are: ``pick`` gives the rows of a slice."""
@@ -51,9 +48,6 @@ class Sliced:
         begin = self._position
         self._position += count
         return self._pick(slice(begin, begin + count))
-
-    def finish(self) -> None:
-        """There is nothing more to be told."""
 
 
 def chunks(columns: Columns, found: Sequence[Column], size: int, times: Times) -> Iterator[Chunk]:
@@ -85,8 +79,6 @@ def chunks(columns: Columns, found: Sequence[Column], size: int, times: Times) -
             times.decide(number for place in range(count) for number in exact(place).state)
         exact.doubles = times.doubles
         yield Chunk(count, exact, _doubles(parts))
-    for column in found:
-        column.finish()
 
 
 def _text(name: str, part: np.ndarray) -> np.ndarray:

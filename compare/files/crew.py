@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from contextlib import ExitStack
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -45,7 +44,7 @@ class Crew:
 
     def __init__(self, judge: Judge, others: int | None = None) -> None:
         self._judge, self._stack = judge, ExitStack()
-        self._others = (os.cpu_count() or 1) - 1 if others is None else others
+        self._others = others
         self._executor: Executor | None = None
         self._flying: list[Future[list[Point]]] = []
         self._chunks = 0
@@ -76,7 +75,7 @@ class Crew:
         if future is None:
             found = _exact(task)
             return lambda: self._turned(found)
-        return lambda: self._turned(_result(future))
+        return lambda: self._turned(_answer(future))
 
     def _turned(self, points: list[Point]) -> list[Point]:
         self._judge.turns.add(np.array([point.errors for point in points]))
@@ -85,11 +84,14 @@ class Crew:
     def _submitted(self, task: Task) -> Future[list[Point]] | None:
         """The task on its way to another process; None where there is none that is free."""
         self._chunks += 1
-        if not self._others or self._chunks <= WORTH_PROCESSES:
+        if self._others == 0 or self._chunks <= WORTH_PROCESSES:
             return None
         if self._executor is None:
-            from reference.command.executors import processes
+            from reference.command.executors import other_cores, processes
 
+            self._others = other_cores() if self._others is None else self._others
+            if not self._others:
+                return None
             self._executor = self._stack.enter_context(processes(self._others))
             self.ahead = AHEAD * self._others
         self._flying = [future for future in self._flying if not future.done()]
@@ -106,12 +108,7 @@ def _exact(task: Task) -> list[Point]:
     return judge.some(range(len(task.chunk)), task.chunk.rows())
 
 
-def _result(future: Future[list[Point]]) -> list[Point]:
-    from concurrent.futures import BrokenExecutor
+def _answer(future: Future[list[Point]]) -> list[Point]:
+    from reference.command.executors import answer
 
-    from reference.command.executors import WorkerError
-
-    try:
-        return future.result()
-    except BrokenExecutor:
-        raise WorkerError("a worker process died before its rows were judged.") from None
+    return answer(future, "its rows were judged")

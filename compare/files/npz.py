@@ -1,18 +1,23 @@
-"""Columns of an NPZ file: arrays in a zip archive, read as they are unpacked."""
+"""Columns of an NPZ file: arrays in a zip archive, unpacked whole where they are not too large.
+
+``numpy.load`` would believe the shape that an array declares, take memory for that, and leave what comes after it.
+"""
 
 from __future__ import annotations
 
+import io
 import struct
 import zipfile
 import zlib
 from collections import Counter
-from contextlib import ExitStack, contextmanager
-from typing import TYPE_CHECKING, Any
+from contextlib import contextmanager
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.lib import format as npy
 
-from compare.files.npy import NO_NPY, header_of, read_header
+from compare.files.arrays import Sliced
+from compare.files.npy import MOST_HEADER, NO_NPY, header_of, read_header
 from compare.files.packed import flat, packed, rows_first, sized
 from reference.names import in_one_sentence, short
 
@@ -43,73 +48,56 @@ FAULTS = (
 MOST_MEMBERS = 10_000
 MOST_UNPACKED = 1100
 """Bytes that deflate makes of one at most are 1032 (zlib's documentation): a member that declares more is none."""
+MOST_BYTES = 1 << 30
+"""Of all arrays that are unpacked."""
 ENCRYPTED = 1
-BLOCK = 1 << 20
-"""Bytes that are read at once where they are only passed by."""
+LENGTH_ENDS = npy.MAGIC_LEN + 4
+"""The last byte at which the length of a header ends."""
 
 
-class Member:
-    """An array in the archive as a column, or every ``step``-th of its numbers from the one at ``first`` on.
+class Archive:
+    """The arrays of an open archive, by their names; what zipfile raises is one sentence about the file ``path``.
 
     Attributes:
-        whole: the shape of the array; ``shape`` is that of the column.
-        by_columns: whether the first axis varies fastest in memory (Fortran's order).
+        shapes: the shape of every array; () where it holds Python objects, or is no array.
+
+    Raises:
+        ValueError: two arrays have one name, or one is encrypted, or not as numpy.savez packs it, or damaged.
     """
 
-    def __init__(self, name: str, size: int, stream: Unpacked) -> None:
-        found = header_of(stream, short(name), size)
-        self.whole, self.by_columns, self.dtype = found.shape, found.by_columns, found.dtype
-        self.shape: tuple[int, ...] = flat(self.whole)
-        self._stream, self._step, self._place = stream, 1, 0
+    def __init__(self, path: Path, opened: zipfile.ZipFile) -> None:
+        self._path, self._opened, self._left = path, opened, MOST_BYTES
+        self._members = _members(path, opened)
+        self.shapes = {name: self._shape(info) for name, info in self._members.items()}
 
-    def column(self, place: int, *, rows_first: bool) -> Member:
-        """The numbers at ``place`` of every row of a table, of shape [rows, state] or else [state, rows]."""
-        rows, width = self.whole if rows_first else self.whole[::-1]
-        self.shape = (rows,)
-        if rows_first != self.by_columns:
-            self._step, self._place = width, place
-        else:
-            self._stream.skip(place * rows * self.dtype.itemsize)
-        return self
+    def _shape(self, info: zipfile.ZipInfo) -> tuple[int, ...]:
+        with told(self._path, info.filename), self._opened.open(info) as stream:
+            head = stream.read(LENGTH_ENDS + MOST_HEADER)
+        try:
+            return read_header(io.BytesIO(head), info.filename).shape
+        except ValueError:  # it may be an array that nobody asked for
+            return ()
 
-    def read(self, count: int) -> Any:
-        """The next numbers."""
-        data = self._stream.read(count * self._step * self.dtype.itemsize)
-        return np.frombuffer(data, self.dtype)[self._place :: self._step]
-
-    def finish(self) -> None:
-        """Read on to the end, where zipfile holds the checksum against what was unpacked."""
-        while self._stream.read(BLOCK, short_of=False):
-            pass
-
-
-class Unpacked:
-    """The bytes of a member as they are unpacked; what zipfile raises is one sentence about the file ``path``."""
-
-    def __init__(self, path: Path, name: str, stream: Any) -> None:
-        self._path, self._name, self._stream = path, name, stream
-
-    def read(self, count: int = 0, *, short_of: bool = True) -> bytes:
-        """The next bytes: as many, or where ``short_of`` is not set those that are left.
+    def array(self, name: str) -> np.ndarray:
+        """The array of this name.
 
         Raises:
-            ValueError: they are fewer, or the archive is damaged.
+            ValueError: it is damaged, is no array of numbers, or with those before it is too large.
         """
-        with told(self._path, self._name):
-            data: bytes = self._stream.read(count)
-        if short_of and len(data) < count:
-            raise ValueError(f"'{self._path}' is truncated: {short(self._name)} ends before all that it declares.")
-        return data
-
-    def tell(self) -> int:
-        """How many bytes were unpacked."""
-        place: int = self._stream.tell()
-        return place
-
-    def skip(self, count: int) -> None:
-        """Pass by the next bytes."""
-        while count > 0:
-            count -= len(self.read(min(count, BLOCK)))
+        info = self._members[name]
+        said = short(info.filename)
+        self._left -= info.file_size
+        if self._left < 0:
+            raise ValueError(
+                f"'{self._path}' declares {sized(info.file_size)} of {said}, which with the other columns is more than "
+                f"the {MOST_BYTES} that are accepted in an NPZ file; an NPY or HDF5 file may have any number."
+            )
+        with told(self._path, info.filename):
+            data = self._opened.read(info)
+        found = header_of(io.BytesIO(data), said, info.file_size)
+        if len(data) < info.file_size:
+            raise ValueError(f"'{self._path}' is truncated: {said} ends before all that it declares.")
+        return np.ndarray(found.shape, found.dtype, data, found.offset, order="F" if found.by_columns else "C")
 
 
 def told(path: Path, name: str = "") -> AbstractContextManager[None]:
@@ -129,29 +117,26 @@ def npz_columns(path: Path, columns: Columns) -> Iterator[list[Column]]:
     """The columns of an NPZ file, one array each; or the times in one, and the states in another.
 
     Raises:
-        ValueError: it is no such file, or has no such arrays.
+        ValueError: it is no such file, or has no such arrays, or they are too large.
     """
-    with ExitStack() as stack:
-        with told(path):
-            archive = stack.enter_context(zipfile.ZipFile(path))
-        members = _members(path, archive)
-
-        def member(name: str) -> Member:
-            info = members[name]
-            with told(path, name):
-                stream = stack.enter_context(archive.open(info))
-            return Member(info.filename, info.file_size, Unpacked(path, name, stream))
-
-        shapes = {name: _shape(path, archive, info) for name, info in members.items()}
-        found = packed(columns, shapes, "arrays")
+    with told(path):
+        opened = zipfile.ZipFile(path)
+    with opened:
+        archive = Archive(path, opened)
+        found = packed(columns, archive.shapes, "arrays")
         if found is None:
-            names = list(members)
-            yield [member(names[place]) for place in columns.among(names, "arrays")]
+            names = list(archive.shapes)
+            yield [_column(archive.array(names[place])) for place in columns.among(names, "arrays")]
             return
         time, table = found
-        by_rows = rows_first(columns, table, shapes[table], flat(shapes[time]))
-        states = [member(table).column(place, rows_first=by_rows) for place in range(len(columns.wanted) - 1)]
-        yield [member(time), *states]
+        by_rows = rows_first(columns, table, archive.shapes[table], flat(archive.shapes[time]))
+        states = archive.array(table) if by_rows else archive.array(table).T
+        yield [_column(archive.array(time)), *(_column(states[:, place]) for place in range(len(columns.wanted) - 1))]
+
+
+def _column(array: np.ndarray) -> Column:
+    array = array.reshape(flat(array.shape))
+    return Sliced(array.shape, array.dtype, array.__getitem__)
 
 
 def _members(path: Path, archive: zipfile.ZipFile) -> dict[str, zipfile.ZipInfo]:
@@ -183,17 +168,3 @@ def _members(path: Path, archive: zipfile.ZipFile) -> dict[str, zipfile.ZipInfo]
                 "which so many cannot come."
             )
     return {info.filename.removesuffix(".npy"): info for info in infos}
-
-
-def _shape(path: Path, archive: zipfile.ZipFile, info: zipfile.ZipInfo) -> tuple[int, ...]:
-    """The shape of an array; () where it holds Python objects, or is no array."""
-    with told(path, info.filename):
-        first, second = archive.open(info), archive.open(info)
-    with first, second:
-        begin = Unpacked(path, info.filename, first)
-        if begin.read(len(npy.MAGIC_PREFIX), short_of=False) != npy.MAGIC_PREFIX:
-            return ()
-        try:
-            return read_header(Unpacked(path, info.filename, second), info.filename).shape
-        except ValueError:  # it may be an array that nobody asked for
-            return ()

@@ -16,6 +16,7 @@ import numpy as np
 from flint import arb
 
 from compare.march.equation import NO_TIME
+from compare.measure.truth import proven
 from reference.arithmetic.namespaces import BALL
 from reference.arithmetic.precision import ctx
 
@@ -58,8 +59,8 @@ def orbital_reach(course: Course) -> OrbitalReach:
 @lru_cache(maxsize=64)
 def early_reach(problem: Problem, end: Fraction) -> OrbitalReach:
     """Of a problem that has orbits, to a time that need not be one of a march's."""
-    times = [end * i / EARLY_STATES for i in range(1, EARLY_STATES + 1)]
-    return _reach(problem, _hashable(problem.state(times, limbs=2)), end)
+    states = proven(problem, end / EARLY_STATES, tuple(range(1, EARLY_STATES + 1)))
+    return _reach(problem, _hashable(states), end)
 
 
 def _hashable(states: np.ndarray) -> tuple[tuple[tuple[float, ...], ...], ...]:

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from compare.measure.records import Cell
     from compare.methods.kinds.one_step import Method
 
-__all__ = ["fit_order", "slope_with_interval", "student_95"]
+__all__ = ["fit_order", "longest_run", "slope_with_interval", "student_95"]
 
 SLOPE_TOLERANCE = 0.05
 MIN_CELLS = 3
@@ -39,7 +39,7 @@ def fit_order(method: Method, cells: Sequence[Cell]) -> FittedOrder:
     x = [math.log(cell.n) for cell in usable]
     y = [-math.log(cell.max_error) for cell in usable]
     slopes = [(y[i + 1] - y[i]) / (x[i + 1] - x[i]) for i in range(len(usable) - 1)]
-    first, last = _longest_run(slopes)
+    first, last = longest_run(slopes, median(slopes[-3:]), SLOPE_TOLERANCE) if slopes else (0, 0)
     chosen = usable[first:last] if last - first >= MIN_CELLS else []
     fitted = spread = None
     rounding = spread_rounding = 0.0
@@ -77,14 +77,16 @@ def _weighted_slope(x: np.ndarray, y: np.ndarray, cells: Sequence[Cell]) -> tupl
     return float(shares @ y), float(np.linalg.norm(shares * relative))
 
 
-def _longest_run(slopes: Sequence[float]) -> tuple[int, int]:
-    """The cells [first, last) of the longest run of slopes near the median of the three finest; the finer of two."""
-    best = 0, 0
-    first = 0
+def longest_run(slopes: Sequence[float], near: float, tolerance: float, least_end: int = 0) -> tuple[int, int]:
+    """The cells [first, last) of the longest run of slopes near a number, the finer of two; (0, 0) where none is.
+
+    A run that ends before the slope at ``least_end`` does not count.
+    """
+    best, first = (0, 0), 0
     for i, slope in enumerate(slopes):
-        if abs(slope - median(slopes[-3:])) > SLOPE_TOLERANCE:
+        if abs(slope - near) > tolerance:
             first = i + 1
-        elif i + 2 - first >= best[1] - best[0]:
+        elif i >= least_end and i + 2 - first >= best[1] - best[0]:
             best = first, i + 2
     return best
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
+from fractions import Fraction
 from functools import lru_cache
 from typing import TYPE_CHECKING
 
@@ -12,20 +13,23 @@ import numpy as np
 from compare.march.autonomous import autonomous
 from compare.march.equation import FormatArithmetic
 from compare.march.lanes import Lane, drift_scales, sample_steps, start_levels
+from compare.march.precision import precision
 from compare.measure.cases import case_of
 from compare.measure.conditioning import Reach, reach
 from reference.once import cached_property
 
 if TYPE_CHECKING:
-    from fractions import Fraction
+    from collections.abc import Iterable
 
     from compare.march.precision import Precision
     from compare.measure.records import Case
     from reference.problem import Problem
 
-__all__ = ["SAMPLES", "Course"]
+__all__ = ["SAMPLES", "Course", "errors_of_doubles", "proven"]
 
 SAMPLES = 128
+DOUBLE_LIMBS = 2
+"""Of the truth, enough for the errors of doubles."""
 
 
 @dataclass(frozen=True)
@@ -77,7 +81,7 @@ class Course:
     @cached_property
     def truth(self) -> np.ndarray:
         """The proven state at the times: float64 limbs [samples, state, limbs], enough for the format."""
-        return _proven_on(self.problem, *self.grid, _limbs(self.fmt))
+        return proven(self.problem, *self.grid, _limbs(self.fmt))
 
     @cached_property
     def neighbour(self) -> Course:
@@ -142,15 +146,25 @@ class Course:
 
 
 @lru_cache(maxsize=64)
-def multiples(unit: Fraction, counts: tuple[int, ...]) -> tuple[Fraction, ...]:
+def multiples(unit: Fraction, counts: tuple[Fraction | int, ...]) -> tuple[Fraction, ...]:
     """Each count times the unit, kept."""
     return tuple(count * unit for count in counts)
 
 
 @lru_cache(maxsize=64)
-def _proven_on(problem: Problem, unit: Fraction, counts: tuple[int, ...], limbs: int) -> np.ndarray:
-    """``problem.state`` at multiples of a time, kept: the numbers of steps of a study come back to the same."""
+def proven(
+    problem: Problem, unit: Fraction, counts: tuple[Fraction | int, ...], limbs: int = DOUBLE_LIMBS
+) -> np.ndarray:
+    """The proven state at multiples of a time: float64 limbs [samples, state, limbs].
+
+    Kept: the numbers of steps of a study, and the solvers that are asked, come back to the same.
+    """
     return problem.state(multiples(unit, counts), limbs=limbs)
+
+
+def errors_of_doubles(problem: Problem, times: Iterable[Fraction], states: np.ndarray) -> np.ndarray:
+    """States - truth at exact times, float64 [times, state]."""
+    return precision("float64").difference(states, proven(problem, Fraction(1), tuple(times)))
 
 
 def _limbs(fmt: Precision) -> int:
@@ -162,5 +176,5 @@ def _limbs(fmt: Precision) -> int:
 def _reach_on(problem: Problem, unit: Fraction, counts: tuple[int, ...], fmt: Precision) -> Reach:
     """The reach at multiples of a time, kept."""
     near = problem.neighbour(fmt.round, fmt.exact_epsilon)
-    truth, other = (_proven_on(one, unit, counts, _limbs(fmt)) for one in (problem, near))
+    truth, other = (proven(one, unit, counts, _limbs(fmt)) for one in (problem, near))
     return reach(problem, truth, near, other, fmt)

@@ -17,18 +17,17 @@ import time
 import warnings
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import lru_cache
 from typing import TYPE_CHECKING, Generic, NamedTuple, TypeVar
 
 import numpy as np
 
-from compare.march.precision import precision
 from compare.measure.cases import case_of
+from compare.measure.truth import errors_of_doubles
 from compare.solvers.catalogue import select
 from compare.solvers.events import exact_events
 from compare.solvers.records import EventCell, SolverCell
 from compare.solvers.solver import SolverError, StoppedError
-from reference.command.sharing import shared
+from reference.command.executors import results
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
@@ -77,7 +76,7 @@ def events(
     else:
         longest = sorted(answered, key=lambda one: one.cell.seconds or 0.0, reverse=True)
         tasks = [Task(one.solver.name, one.question, exact[one.question.problem]) for one in longest]
-        for task, cell in shared(tasks, _score, executor):
+        for task, cell in results(executor, _score, tasks, unfinished="its events were found"):
             _tell(progress, task.solver)
             found[_key(task.solver, task.question)] = cell
     cells = (found[_key(solver.name, question)] for solver, question, _ in answered)
@@ -177,7 +176,6 @@ def _flush() -> None:
     ctypes.CDLL(None).fflush(None)
 
 
-LIMBS = 2
 CALLS, BRIEF = 3, 0.1
 """A call is made again until CALLS of them or BRIEF seconds are over, and the shortest counts."""
 
@@ -220,15 +218,8 @@ def _cell(solver: Solver, question: Question, found: Heard[Answer], seconds: flo
 
 def _errors(question: Question, states: np.ndarray) -> np.ndarray:
     """|states - truth| at exactly the times."""
-    truth = _truth(question.problem, tuple(question.times.tolist()))
-    errors: np.ndarray = np.abs(precision("float64").difference(states, truth))
+    errors: np.ndarray = np.abs(errors_of_doubles(question.problem, map(Fraction, question.times.tolist()), states))
     return errors
-
-
-@lru_cache(maxsize=64)
-def _truth(problem: Problem, times: tuple[float, ...]) -> np.ndarray:
-    """The proven state, kept: every solver is asked at the same times."""
-    return problem.state(list(map(Fraction, times)), limbs=LIMBS)
 
 
 def _asked(solver: Solver, question: Question) -> tuple[Heard[Answer], float]:

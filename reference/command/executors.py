@@ -1,4 +1,4 @@
-"""Where blocks run: in this process, in a pool of processes, on a Dask cluster, or under MPI."""
+"""Where tasks run: in this process, in a pool of processes, on a Dask cluster, or under MPI; and their answers."""
 
 from __future__ import annotations
 
@@ -7,11 +7,13 @@ import os
 import signal
 import threading
 from collections import deque
-from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Executor, Future, ProcessPoolExecutor, wait
-from contextlib import contextmanager
+from concurrent.futures import BrokenExecutor, Executor, Future, ProcessPoolExecutor
+from contextlib import contextmanager, suppress
 from importlib import import_module
+from itertools import islice
 from multiprocessing import connection, resource_tracker
-from typing import TYPE_CHECKING, Any, TypeVar
+from queue import SimpleQueue
+from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
 from reference.command.interrupts import held
 from reference.names import unknown
@@ -20,38 +22,24 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator
     from multiprocessing.connection import Connection
 
-__all__ = ["EXECUTORS", "WorkerError", "opened", "processes", "results"]
+__all__ = ["EXECUTORS", "WorkerError", "answer", "opened", "other_cores", "processes", "results"]
 
 EXECUTORS = ("process", "dask:ADDRESS", "mpi")
 AHEAD = 4
 """Tasks kept waiting for each worker: enough to keep it busy, few enough that memory stays bounded."""
 
 
-class WorkerError(RuntimeError):
-    """A process that worked on a block died."""
+class WorkerError(BrokenExecutor):
+    """A process that worked on a task died."""
 
 
 Task = TypeVar("Task")
 Answer = TypeVar("Answer")
 
 
-class Inline(Executor):
-    """Runs each task at once in this process."""
-
-    def submit(self, fn: Callable[..., Any], /, *args: Any, **kwargs: Any) -> Future[Any]:
-        """Return a finished future; what ``fn`` raises is raised here and now."""
-        future: Future[Any] = Future()
-        future.set_result(fn(*args, **kwargs))
-        return future
-
-    def map(self, fn: Callable[..., Any], *iterables: Iterable[Any], **_limits: Any) -> Iterator[Any]:
-        """Yield the answers, each computed when it is asked for; a limit on time or size means nothing here."""
-        return map(fn, *iterables)
-
-
 @contextmanager
-def opened(name: str, jobs: int) -> Iterator[Executor]:
-    """Open an executor: "process" with ``jobs`` processes (one job runs here), "dask:ADDRESS" or "mpi".
+def opened(name: str, jobs: int) -> Iterator[Executor | None]:
+    """Open an executor: "process" with ``jobs`` processes (None for one job: it runs here), "dask:ADDRESS" or "mpi".
 
     Raises:
         ValueError: the name is unknown, or ``jobs`` is less than one.
@@ -69,10 +57,15 @@ def opened(name: str, jobs: int) -> Iterator[Executor]:
     elif name != "process":
         raise ValueError(unknown("executor", name, EXECUTORS))
     elif jobs == 1:
-        yield Inline()
+        yield None
     else:
         with processes(jobs) as executor:
             yield executor
+
+
+def other_cores() -> int:
+    """How many cores there are besides the one that this process runs on."""
+    return (os.cpu_count() or 1) - 1
 
 
 class Pool(ProcessPoolExecutor):
@@ -141,33 +134,108 @@ def _cluster_module(name: str, package: str) -> Any:
 
 
 def results(
-    executor: Executor, function: Callable[[Task], Answer], tasks: Iterable[Task], jobs: int
+    executor: Executor | None,
+    function: Callable[[Task], Answer],
+    tasks: Iterable[Task],
+    jobs: int | None = None,
+    *,
+    unfinished: str = "its block was finished; the finished blocks are kept",
 ) -> Iterator[tuple[Task, Answer]]:
-    """Yield each task with its answer as they finish; never more than a few tasks a worker are in flight.
+    """Yield each task with its answer as they finish, the first begun first.
+
+    Args:
+        executor: where tasks are done; in this process, each when its answer is asked for, if None.
+        function: what is done with a task.
+        tasks: drawn by this thread alone.
+        jobs: the number of workers, which do everything, each kept a few tasks ahead.  If None this process does its
+            share: it takes the next task whenever it has ended one, and so does each worker, and all end at the same
+            time; none is handed a task that it cannot begin at once, where the number of workers is known.
+        unfinished: what had not come about when a worker died, for the sentence.
 
     Raises:
-        WorkerError: a worker process died.
+        WorkerError: a worker process died; and whatever ``function`` raises.
     """
-    queue = iter(tasks)
-    running: dict[Future[Answer], Task] = {}
-    done: deque[Future[Answer]] = deque()
+    if executor is None:
+        yield from ((task, function(task)) for task in tasks)
+        return
+    undrawn, under_way, handed = iter(tasks), 0, _Handed(executor, function, on=jobs is None)
+    most = at_once = None if jobs is None else AHEAD * jobs
+    if jobs is None:
+        at_once = getattr(executor, "_max_workers", None)
     try:
         while True:
-            while len(running) < AHEAD * jobs and (task := next(queue, None)) is not None:
-                running[executor.submit(function, task)] = task
-                if isinstance(executor, Inline):
-                    break
-            if not running:
+            drawn = list(islice(undrawn, None if most is None else most - under_way))
+            handed.waiting.extend(drawn)
+            for _ in drawn[:at_once]:
+                handed.over()
+            under_way += len(drawn)
+            if not under_way:
                 return
-            done.extend(wait(running, return_when=FIRST_COMPLETED).done)
-            while done:
-                future = done.popleft()
-                yield running.pop(future), future.result()
-    except BrokenExecutor:
-        raise WorkerError(
-            "a worker process died before its block was finished; the finished blocks are kept."
-        ) from None
+            task, future = handed.back()
+            yield task, function(task) if future is None else answer(future, unfinished)
+            under_way -= 1
     finally:
-        if not isinstance(executor, ProcessPoolExecutor):  # which cancels its own
-            for future in running:
+        handed.let_go()
+
+
+def answer(future: Future[Answer], unfinished: str) -> Answer:
+    """The answer of a task, waited for.
+
+    Raises:
+        WorkerError: its worker process died; and whatever the task raised.
+    """
+    try:
+        return future.result()
+    except BrokenExecutor:
+        raise WorkerError(f"a worker process died before {unfinished}.") from None
+
+
+class _Handed(Generic[Task, Answer]):
+    """Tasks on their way to an executor and back.
+
+    Where ``on`` is set, a worker that ends one is handed the next of those that wait, while this process is busy; else
+    this thread alone hands over, and begins the processes.
+    """
+
+    def __init__(self, executor: Executor, function: Callable[[Task], Answer], *, on: bool) -> None:
+        self._executor, self._function, self._on = executor, function, on
+        self.waiting: deque[Task] = deque()
+        self._running: set[Future[Answer]] = set()
+        self._answered: SimpleQueue[tuple[Task, Future[Answer] | None]] = SimpleQueue()
+
+    def over(self, _: object = None) -> None:
+        """Hand over the next task; one that the executor does not take comes back unanswered."""
+        try:
+            task = self.waiting.popleft()
+        except IndexError:  # none is left
+            return
+        try:
+            future = self._executor.submit(self._function, task)
+        except BrokenExecutor as error:
+            future = Future()
+            future.set_exception(error)
+            self.waiting.clear()
+        except RuntimeError:
+            self._answered.put((task, None))
+            return
+        self._running.add(future)
+        future.add_done_callback(lambda done: self._answered.put((task, done)))
+        if self._on:
+            future.add_done_callback(self.over)
+
+    def back(self) -> tuple[Task, Future[Answer] | None]:
+        """A task that is answered, or else one to be done here; where there is neither, the next to be answered."""
+        if self._answered.empty() and self.waiting:
+            with suppress(IndexError):  # a worker took it
+                return self.waiting.popleft(), None
+        task, future = self._answered.get()
+        if future is not None:
+            self._running.discard(future)
+        return task, future
+
+    def let_go(self) -> None:
+        """Begin no other task."""
+        self.waiting.clear()
+        if not isinstance(self._executor, ProcessPoolExecutor):  # which cancels its own
+            for future in list(self._running):
                 future.cancel()

@@ -332,6 +332,12 @@ def test_what_nobody_asked_for_may_be_of_any_kind(tmp_path, capsys):
     assert json.loads(capsys.readouterr().out)["rows"] == 40
 
 
+def test_arrays_that_are_together_larger_than_what_is_unpacked_are_one_sentence(tmp_path, capsys, monkeypatch):
+    monkeypatch.setattr("compare.files.npz.MOST_BYTES", 3 * SIZE - 1)
+    says = f"declares {SIZE} bytes of omega.npy, which with the other columns is more than the {3 * SIZE - 1}"
+    refused(tmp_path / "a.npz", DEFLATED, says, capsys)
+
+
 def test_a_chunk_of_a_gigabyte_is_refused_before_it_is_unpacked(tmp_path, capsys):
     with h5py.File(tmp_path / "a.h5", "w") as file:
         for name in COLUMNS:

@@ -248,7 +248,7 @@ def test_other_processes_find_the_same_in_the_same_order(form, tmp_path, capsys,
     for name in ("a.csv", "a.npy"):
         outputs = []
         for cores in (1, 3):
-            monkeypatch.setattr("compare.files.crew.os.cpu_count", lambda cores=cores: cores)
+            monkeypatch.setattr("os.cpu_count", lambda cores=cores: cores)
             assert main(["score", str(tmp_path / name), "--theta0", "1", "--format", form]) == 0
             outputs.append(capsys.readouterr().out)
         assert outputs[0] == outputs[1]

@@ -1,4 +1,4 @@
-"""Where blocks run: bounded queues, answers as they are asked for, and one sentence for what is not there."""
+"""Where tasks run: each done once, none behind another, queues bounded, and one sentence for what is not there."""
 
 from __future__ import annotations
 
@@ -8,7 +8,10 @@ import signal
 import sys
 import threading
 import time
+from concurrent.futures import BrokenExecutor, Executor, Future, ThreadPoolExecutor
 from multiprocessing import util
+from queue import SimpleQueue
+from typing import Any
 
 import pytest
 
@@ -45,16 +48,6 @@ def test_an_executor_that_is_not_there_is_one_sentence(monkeypatch, name, error,
         pass
 
 
-def test_in_this_process_each_answer_of_a_map_is_computed_when_it_is_asked_for():
-    computed = []
-    with opened("process", 1) as pool:
-        answers = pool.map(lambda x, y: computed.append(x) or x + y, range(3), range(3), timeout=None, chunksize=2)
-        assert computed == []
-        assert next(answers) == 0
-        assert computed == [0]
-        assert list(answers) == [2, 4]
-
-
 def die(_task):
     os._exit(3)
 
@@ -76,19 +69,22 @@ def test_processes_end_at_once_on_an_error_and_leave_no_traceback(monkeypatch):
     with pytest.raises(KeyboardInterrupt), opened("process", 2) as pool:  # noqa: PT012 (the block is what is tested)
         answers = results(pool, last, range(20), 2)
         pool.submit(abs, 1)
-        monkeypatch.setattr("reference.command.executors.wait", interrupted)
+        monkeypatch.setattr("reference.command.executors.SimpleQueue", Interrupted)
         next(answers)
     assert uncaught == []
     assert time.monotonic() - begun < 50
     assert not [process for process in multiprocessing.active_children() if process.is_alive()]
 
 
-def interrupted(*_args, **_kwargs):
-    raise KeyboardInterrupt
+class Interrupted(SimpleQueue):
+    """An interrupt while an answer is waited for."""
+
+    def get(self, *_args):
+        raise KeyboardInterrupt
 
 
 def test_nobody_but_the_pool_cancels_what_its_processes_were_to_do(monkeypatch):
-    monkeypatch.setattr("reference.command.executors.wait", interrupted)
+    monkeypatch.setattr("reference.command.executors.SimpleQueue", Interrupted)
     futures = []
     with pytest.raises(KeyboardInterrupt), opened("process", 2) as pool:  # noqa: PT012 (the block is what is tested)
         submit = pool.submit
@@ -121,3 +117,83 @@ def test_a_signal_that_another_thread_takes_finds_no_process_half_begun(monkeypa
         executor.submit(os.getpid)
     assert begun
     assert capfd.readouterr().err == ""
+
+
+def square(number: int) -> int:
+    return number * number
+
+
+@pytest.mark.parametrize("count", [0, 1, 2, 7])
+def test_without_an_executor_every_task_is_done_in_order(count: int) -> None:
+    assert list(results(None, square, range(count))) == [(k, k * k) for k in range(count)]
+
+
+@pytest.mark.parametrize("workers", [1, 3, 20])
+def test_every_task_is_done_once_whoever_does_it(workers: int) -> None:
+    with ThreadPoolExecutor(workers) as executor:
+        assert sorted(results(executor, square, range(50))) == [(k, k * k) for k in range(50)]
+
+
+def test_this_process_and_others_share_what_is_to_be_done() -> None:
+    with processes(2) as executor:
+        assert dict(results(executor, square, range(9))) == {k: k * k for k in range(9)}
+
+
+def test_no_task_waits_for_a_busy_worker() -> None:
+    """The worker is held on its first task; this process does all the others meanwhile."""
+    release, by = threading.Event(), {}
+
+    def note(task: int) -> int:
+        by[task] = threading.current_thread() is threading.main_thread()
+        if not by[task]:
+            release.wait(10)
+        elif len(by) == 6:
+            release.set()
+        return task
+
+    with ThreadPoolExecutor(1) as executor:
+        found = [task for task, _ in results(executor, note, range(6))]
+    assert found == [1, 2, 3, 4, 5, 0]
+    assert list(by.values()).count(False) == 1
+
+
+def test_what_a_task_raises_is_raised_and_the_rest_is_left() -> None:
+    done = []
+
+    def fail(task: int) -> int:
+        done.append(task)
+        if task == 1:
+            raise ZeroDivisionError
+        time.sleep(0.01)
+        return task
+
+    with ThreadPoolExecutor(1) as executor, pytest.raises(ZeroDivisionError):
+        list(results(executor, fail, range(100)))
+    assert len(done) < 100
+
+
+class Refusing(Executor):
+    """Takes one task, which never ends well, and no other."""
+
+    _max_workers = 2
+
+    def __init__(self, error: Exception | None = None) -> None:
+        self.taken, self.error = 0, error
+
+    def submit(self, fn: Any, /, *args: Any, **kwargs: Any) -> Future[Any]:
+        del fn, args, kwargs
+        self.taken += 1
+        if self.taken > 1 or self.error is None:
+            raise RuntimeError("cannot schedule new futures after shutdown")
+        future: Future[Any] = Future()
+        future.set_exception(self.error)
+        return future
+
+
+def test_what_an_executor_does_not_take_is_done_here() -> None:
+    assert dict(results(Refusing(), square, range(5))) == {k: k * k for k in range(5)}
+
+
+def test_a_broken_executor_is_said_to_be_so() -> None:
+    with pytest.raises(WorkerError, match=r"^a worker process died before .*\.$"):
+        list(results(Refusing(BrokenExecutor()), square, range(5)))

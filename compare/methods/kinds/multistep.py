@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
     from compare.methods.kinds.protocol import Method, State, System
 
-__all__ = ["LinearMultistep", "Past", "PredictorCorrector", "moved", "total", "without_zeros"]
+__all__ = ["Linear", "LinearMultistep", "Past", "PredictorCorrector", "moved", "total", "without_zeros"]
 
 SUBSTEPS = 4
 """Steps of the starter in each step of an opening."""
@@ -99,8 +99,70 @@ def without_zeros(weights: tuple[Fraction, ...]) -> tuple[Fraction, ...]:
     return weights
 
 
+class Multistep:
+    """What multistep methods have in common: the past behind the state, where nothing has to be solved."""
+
+    family: ClassVar[str] = "multistep"
+    symplectic: ClassVar[bool] = False
+    separable_only: ClassVar[bool] = False
+    second_order_only: ClassVar[bool] = False
+
+    @cached_property
+    def past(self) -> Past:
+        """What is remembered from step to step."""
+        raise NotImplementedError
+
+    @property
+    def opening(self) -> int:
+        return self.past.opening
+
+    def memory(self, dimension: int, positions: int) -> int:
+        """Increments and slopes are of the state; where the method is of second order in time, of the positions."""
+        return (positions if self.separable_only else dimension) * (self.past.moves + self.past.slopes)
+
+    def iterations(self, size: float, bits: int) -> int:  # noqa: ARG002
+        return 0
+
+    def jacobians(self, iterations: int) -> int:  # noqa: ARG002
+        return 0
+
+    def start(self, system: System, y: State, h: Any) -> tuple[tuple[State, ...], State]:
+        return self.past.start(system, y, h, system.derivative)
+
+
+class Linear(Multistep):
+    """A linear multistep method, of one new slope: explicit where its weight beta_k = 0, else solved for.
+
+    Attributes:
+        powers: the power of h before the slopes.
+    """
+
+    stages: ClassVar[int] = 1
+    powers: ClassVar[int] = 1
+    beta: tuple[Fraction, ...]
+
+    @property
+    def explicit(self) -> bool:
+        return self.beta[-1] == 0
+
+    @property
+    def matrix(self) -> newton.Matrix:
+        """The weight of the new slope, as of a method of one stage."""
+        return ((self.beta[-1],),)
+
+    def iterations(self, size: float, bits: int) -> int:
+        weight = float(abs(self.beta[-1])) ** (1 / self.powers)
+        return 0 if self.explicit else newton.iterations(size * weight, bits)
+
+    def evaluations(self, iterations: int) -> tuple[int, int]:
+        return (1 if self.explicit else newton.evaluations(self.matrix, iterations)), self.past.evaluations
+
+    def jacobians(self, iterations: int) -> int:
+        return 0 if self.explicit else newton.jacobians(self.matrix, iterations)
+
+
 @dataclass(frozen=True)
-class LinearMultistep:
+class LinearMultistep(Linear):
     """sum_j alpha_j y_{n+j} = h sum_j beta_j f_{n+j},  j = 0 ... k,  alpha_k = 1; explicit where beta_k = 0.
 
     A step adds an increment to y_{n+k-1}: since the alpha sum to 0, the states enter by their differences alone.
@@ -116,10 +178,6 @@ class LinearMultistep:
     beta: tuple[Fraction, ...]
     starter: Method
     aliases: tuple[str, ...] = ()
-    family: str = "multistep"
-    symplectic: bool = False
-    separable_only: bool = False
-    second_order_only: ClassVar[bool] = False
 
     def __post_init__(self) -> None:
         if len(self.alpha) != len(self.beta):
@@ -139,14 +197,6 @@ class LinearMultistep:
     def proven_order(self) -> int:
         return multistep_order(self.alpha, self.beta)
 
-    @property
-    def stages(self) -> int:
-        return 1
-
-    @property
-    def explicit(self) -> bool:
-        return self.beta[-1] == 0
-
     @cached_property
     def of_moves(self) -> tuple[Fraction, ...]:
         """The weights of the past increments, latest first: -(alpha_j + ... + alpha_k) for y_{n+j} - y_{n+j-1}."""
@@ -162,36 +212,13 @@ class LinearMultistep:
         """What is remembered from step to step."""
         return Past(len(self.of_moves), len(self.of_slopes), self.starter)
 
-    @property
-    def opening(self) -> int:
-        return self.past.opening
-
-    def memory(self, dimension: int, positions: int) -> int:  # noqa: ARG002
-        return dimension * (self.past.moves + self.past.slopes)
-
-    @property
-    def _matrix(self) -> newton.Matrix:
-        return ((self.beta[-1],),)
-
-    def iterations(self, size: float, bits: int) -> int:
-        return 0 if self.explicit else newton.iterations(size * float(abs(self.beta[-1])), bits)
-
-    def evaluations(self, iterations: int) -> tuple[int, int]:
-        return (1 if self.explicit else newton.evaluations(self._matrix, iterations)), self.past.evaluations
-
-    def jacobians(self, iterations: int) -> int:
-        return 0 if self.explicit else newton.jacobians(self._matrix, iterations)
-
-    def start(self, system: System, y: State, h: Any) -> tuple[tuple[State, ...], State]:
-        return self.past.start(system, y, h, system.derivative)
-
     def step(self, system: System, y: State, h: Any, iterations: int = 0) -> tuple[State, State]:
         state, moves, slopes = self.past.split(y, system.dimension)
         move, changes = self.known(system, h, moves, slopes), ()
         if self.explicit:
             slope = system.derivative(moved(state, move))
         else:
-            base, matrices = moved(state, move), (self._matrix,) * system.dimension
+            base, matrices = moved(state, move), (self.matrix,) * system.dimension
             (slope,), last_changes = newton.slopes(system, base, h, matrices, iterations)
             move = total(move, increment(system, h, self.beta[-1:], [slope]))
             changes = increment(system, h, self.beta[-1:], last_changes)
@@ -205,7 +232,7 @@ class LinearMultistep:
 
 
 @dataclass(frozen=True)
-class PredictorCorrector:
+class PredictorCorrector(Multistep):
     """An explicit method predicts, an implicit one corrects once: predict, evaluate, correct, evaluate (PECE)."""
 
     name: str
@@ -214,10 +241,7 @@ class PredictorCorrector:
     predictor: LinearMultistep
     corrector: LinearMultistep
     aliases: tuple[str, ...] = ()
-    family: str = "multistep"
-    symplectic: bool = False
-    separable_only: bool = False
-    second_order_only: ClassVar[bool] = False
+    stages: ClassVar[int] = 2
 
     def __post_init__(self) -> None:
         if not self.predictor.explicit or self.corrector.explicit:
@@ -227,34 +251,14 @@ class PredictorCorrector:
         """The corrector's, but at most one above that of the predictor, whose error enters times h."""
         return min(self.corrector.proven_order(), self.predictor.proven_order() + 1)
 
-    @property
-    def stages(self) -> int:
-        return 2
-
     @cached_property
     def past(self) -> Past:
         """What is remembered from step to step."""
         both = self.predictor.past, self.corrector.past
         return Past(max(past.moves for past in both), max(past.slopes for past in both), self.predictor.starter)
 
-    @property
-    def opening(self) -> int:
-        return self.past.opening
-
-    def memory(self, dimension: int, positions: int) -> int:  # noqa: ARG002
-        return dimension * (self.past.moves + self.past.slopes)
-
-    def iterations(self, size: float, bits: int) -> int:  # noqa: ARG002
-        return 0
-
     def evaluations(self, iterations: int) -> tuple[int, int]:  # noqa: ARG002
         return 2, self.past.evaluations
-
-    def jacobians(self, iterations: int) -> int:  # noqa: ARG002
-        return 0
-
-    def start(self, system: System, y: State, h: Any) -> tuple[tuple[State, ...], State]:
-        return self.past.start(system, y, h, system.derivative)
 
     def step(self, system: System, y: State, h: Any, iterations: int = 0) -> tuple[State, State]:  # noqa: ARG002
         state, moves, slopes = self.past.split(y, system.dimension)

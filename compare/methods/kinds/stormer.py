@@ -9,7 +9,7 @@ import numpy as np
 
 from compare.methods.kinds import newton
 from compare.methods.kinds.increment import increment
-from compare.methods.kinds.multistep import Past, moved, total, without_zeros
+from compare.methods.kinds.multistep import Linear, Past, moved, total, without_zeros
 from compare.methods.order.algebraic import Q
 from compare.methods.order.multistep import is_zero_stable, multistep_order, velocity_weights
 from reference.once import cached_property
@@ -23,7 +23,7 @@ __all__ = ["StormerCowell"]
 
 
 @dataclass(frozen=True)
-class StormerCowell:
+class StormerCowell(Linear):
     """q_{n+k} - 2 q_{n+k-1} + q_{n+k-2} = h^2 sum_j beta_j F_{n+j},  j = 0 ... k; explicit where beta_k = 0.
 
     The velocity p_n = (q_n - q_{n-1})/h + h sum_j w_j F_{n-j} interpolates F through the last ``velocity`` values.  In
@@ -43,10 +43,9 @@ class StormerCowell:
     velocity: int
     starter: Method
     aliases: tuple[str, ...] = ()
-    family: str = "multistep"
-    symplectic: bool = False
-    separable_only: bool = True
+    separable_only: ClassVar[bool] = True
     second_order_only: ClassVar[bool] = True
+    powers: ClassVar[int] = 2
 
     def __post_init__(self) -> None:
         if sum(self.beta) != 1:
@@ -65,14 +64,6 @@ class StormerCowell:
     def proven_order(self) -> int:
         return multistep_order(self.alpha, self.beta, 2)
 
-    @property
-    def stages(self) -> int:
-        return 1
-
-    @property
-    def explicit(self) -> bool:
-        return self.beta[-1] == 0
-
     @cached_property
     def of_velocity(self) -> tuple[Fraction, ...]:
         """w_j: the weights of F_n, F_{n-1}, ... in the velocity."""
@@ -90,26 +81,6 @@ class StormerCowell:
     def past(self) -> Past:
         """What is remembered from step to step: forces."""
         return Past(0, len(self.of_forces), self.starter)
-
-    @property
-    def opening(self) -> int:
-        return self.past.opening
-
-    def memory(self, dimension: int, positions: int) -> int:  # noqa: ARG002
-        return positions * self.past.slopes
-
-    @property
-    def _matrix(self) -> newton.Matrix:
-        return ((self.beta[-1],),)
-
-    def iterations(self, size: float, bits: int) -> int:
-        return 0 if self.explicit else newton.iterations(size * float(abs(self.beta[-1])) ** 0.5, bits)
-
-    def evaluations(self, iterations: int) -> tuple[int, int]:
-        return (1 if self.explicit else newton.evaluations(self._matrix, iterations)), self.past.evaluations
-
-    def jacobians(self, iterations: int) -> int:
-        return 0 if self.explicit else newton.jacobians(self._matrix, iterations)
 
     def start(self, system: System, y: State, h: Any) -> tuple[tuple[State, ...], State]:
         """The opening.
@@ -130,7 +101,7 @@ class StormerCowell:
         changes: State = ()
         if not self.explicit:
             equation = _Positions(system, p)
-            (force,), (change,) = newton.slopes(equation, moved(q, drift), h * h, (self._matrix,) * len(q), iterations)
+            (force,), (change,) = newton.slopes(equation, moved(q, drift), h * h, (self.matrix,) * len(q), iterations)
             last = increment(system, h, self.beta[-1:], [force])
             kick, drift = total(kick, last), total(drift, tuple(h * rate for rate in last))
             changes = tuple(h * rate for rate in increment(system, h, self.beta[-1:], [change]))
