@@ -8,14 +8,16 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from compare.claims.checking import check
     from compare.files.score import score
+    from compare.methods.step_function import method
     from compare.scored import energy_drift, error_vs_n
 
-__all__ = ["check", "energy_drift", "error_vs_n", "score"]
+__all__ = ["check", "energy_drift", "error_vs_n", "method", "score"]
 
 _HOMES = {
     "check": "compare.claims.checking",
     "energy_drift": "compare.scored",
     "error_vs_n": "compare.scored",
+    "method": "compare.methods.step_function",
     "score": "compare.files.score",
 }
 

@@ -91,19 +91,19 @@ class Scored:
         return tuple(self.found[name]) if name in self.scores else None
 
 
-def error_vs_n(problem: Problem, methods: Sequence[str] | None = None, **options: Any) -> tuple[Cell, ...]:
+def error_vs_n(problem: Problem, methods: Sequence[str | Method] | None = None, **options: Any) -> tuple[Cell, ...]:
     """Return the error of methods on a problem at each number of steps; options as for ``score_all``."""
     return score_all([problem], methods, **options).cells
 
 
-def energy_drift(problem: Problem, methods: Sequence[str] | None = None, **options: Any) -> tuple[Drift, ...]:
+def energy_drift(problem: Problem, methods: Sequence[str | Method] | None = None, **options: Any) -> tuple[Drift, ...]:
     """Return the energy drift of methods on a problem at each number of steps; options as for ``score_all``."""
     return score_all([problem], methods, **options).drifts
 
 
 def score_all(
     problems: Sequence[Problem],
-    methods: Sequence[str] | None = None,
+    methods: Sequence[str | Method] | None = None,
     n: Sequence[int] = DEFAULT_N,
     t_end: Any = 10.0,
     precision: str = "float64",
@@ -119,7 +119,7 @@ def score_all(
 
     Args:
         problems: problems of any families.
-        methods: names or aliases, or "all" for every one; ``compare.methods.DEFAULT`` if None.
+        methods: names or aliases, or "all" for every one, or methods themselves; ``compare.methods.DEFAULT`` if None.
         n: numbers of steps, each a positive integer.
         t_end: end of the march, in s or the problem's own unit; or a list of one for each problem.
         precision: a format of ``compare.march.precision``.
@@ -139,6 +139,8 @@ def score_all(
         raise TypeError(f"problems holds a {type(problems[0]).__name__}; problems such as Pendulum(1.0) are accepted.")
     fmt, wanted = find_precision(precision), chosen_scores(some(scores, "scores"))
     chosen = named(methods)
+    if fmt.name != "float64" and (own := [method.name for method in chosen if method.family == "own"]):
+        raise ValueError(f"{own[0]} is a step function, with constants in doubles; precision float64 is accepted.")
     if compensated:
         twins = [(compensate(method),) if compensated is True else (method, compensate(method)) for method in chosen]
         chosen = tuple(method for both in twins for method in both)
@@ -163,17 +165,33 @@ def score_all(
     return Scored(chosen, tuple(problems), ends, fmt, wanted, samples, found, left_out)
 
 
-def named(methods: Sequence[str] | None) -> tuple[Method, ...]:
+def named(methods: Sequence[str | Method] | None) -> tuple[Method, ...]:
     """The methods of these names or aliases, each once; "all" stands for every one, and None for the default ones.
 
+    A method may stand for itself, such as one that ``compare.method`` made of a step function.
+
     Raises:
-        ValueError: a name is unknown, or there is none.
-        TypeError: ``methods`` is one name.
+        ValueError: a name is unknown or stands for two methods, or there is none.
+        TypeError: ``methods`` is one name, or holds what is neither a name nor a method.
+        FileNotFoundError, ImportError: the user's module that a name is of cannot be imported.
     """
     if methods is None:
         return DEFAULT
-    found = (METHODS if str(name).strip().lower() == ALL else (find(name),) for name in some(methods, "methods"))
-    return tuple(dict.fromkeys(method for several in found for method in several))
+    found: dict[str, Method] = {}
+    for one in some(methods, "methods"):
+        for method in METHODS if isinstance(one, str) and one.strip().lower() == ALL else (_method(one),):
+            if found.setdefault(method.name, method) != method:
+                raise ValueError(f"methods has two of the name {method.name}; each name is accepted once.")
+    return tuple(found.values())
+
+
+def _method(one: str | Method) -> Method:
+    if isinstance(one, str):
+        return find(one)
+    if not callable(getattr(one, "step", None)):
+        hint = " compare.method(order=...) makes a method of a step function;" if callable(one) else ""
+        raise TypeError(f"methods has {one!r};{hint} a name such as 'rk4', or a method, is accepted.")
+    return one
 
 
 def fits(method: Method, problem: Problem) -> bool:

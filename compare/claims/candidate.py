@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from compare.claims.frames import Field, MisuseError
-from reference.command.named import named
+from reference.named import named
 from reference.names import printable, unknown
 
 if TYPE_CHECKING:

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from functools import cache
 
-from reference.command.named import named
 from reference.family import Family
+from reference.named import named
 from reference.names import unknown
 from reference.problems.cycloid import family as cycloid
 from reference.problems.descent import family as descent
