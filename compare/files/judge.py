@@ -385,7 +385,11 @@ class _Bench:
         self._parameters = {name: BALL.number(value) for name, value in problem.parameters.items()}
         self._orbits: Orbits | None = problem.orbits()
         self._resolution = arb(2) ** -bits
-        self._start: arb | None = self._invariant([BALL.number(value) for value in problem.start])
+        start = [BALL.number(value) for value in problem.start]
+        self._start: arb | None = self._invariant(start)
+        self._scale = arb(0) if self._start is None else self._start
+        if problem.invariants and problem.invariants[0].scale == "kinetic":
+            self._scale = arb(problem.kinetic(BALL, start, self._parameters))
 
     def point(self, number: int, row: Row, truth: Sequence[arb]) -> Point:
         """Judge one row.
@@ -445,7 +449,7 @@ class _Bench:
         if invariant is None or self._start is None:
             return math.nan
         change = invariant - self._start
-        return float(change if self._start.contains(0) else change / self._start)
+        return float(change if self._scale.contains(0) else change / abs(self._scale))
 
     def _invariant(self, y: Sequence[arb]) -> arb | None:
         return arb(self._problem.invariant(BALL, y, self._parameters)) if self._problem.invariants else None

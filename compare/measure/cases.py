@@ -47,6 +47,7 @@ def _case(problem: Problem, text: str) -> Case:
         pair=space.pairs[0] if space.rates else (),
         absolute=_absolute(problem),
         events=problem.event_words,
+        freedom=len(space.pairs),
         lacks=tuple(_lacks(problem).items()),
     )
 
@@ -88,6 +89,12 @@ def _absolute(problem: Problem) -> str:
     return f"|{names[0]} - exact|{shared}" if len(names) == 1 else f"error of {' or '.join(names)}{shared}"
 
 
+def _canonical(problem: Problem) -> bool:
+    """Whether momenta are known: as components, as multiples of velocities, or as an energy's slopes by them."""
+    space = problem.space
+    return bool(space.momenta or (space.velocities and (problem.positions or problem.invariants)))
+
+
 def _lacks(problem: Problem) -> dict[str, str]:
     """The scores that need what the problem has not, each with the reason."""
     space, found = problem.space, {}
@@ -97,10 +104,14 @@ def _lacks(problem: Problem) -> dict[str, str]:
         orbital = problem.orbits() is not None
     if not orbital:
         found["phase"] = problem.lacks_of_orbits.removesuffix(".")
-    if not orbital or not math.isfinite(problem.cycle()):
-        found["period"] = "the exact motion has no period" + ("" if orbital else " that orbits are known for")
+    if not math.isfinite(problem.cycle()):
+        found["period"] = "the exact motion has no period"
+    elif not orbital:
+        found["period"] = found["phase"]
     if space.along is not None:
         found["growth"] = "along a curve there is no time to grow in"
-    if space.odd is None and not space.rates:
-        found["defects"] = "there are no momenta, and turning back means nothing"
+    missing = ["there are no momenta"] if not _canonical(problem) else []
+    missing += ["turning back means nothing"] if space.odd is None else []
+    if missing:
+        found["defects"] = ", and ".join(missing)
     return found

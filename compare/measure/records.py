@@ -48,6 +48,7 @@ class Case:
         pair: where the first position and its rate stand in the state; () where there is no velocity.
         absolute: the position error in the units of the state, with those where they are all the same.
         events: what the proven events are called.
+        freedom: the degrees of freedom: how many positions have a rate.
         lacks: the scores that need what the problem has not, and why.
     """
 
@@ -65,6 +66,7 @@ class Case:
     pair: tuple[int, ...] = (0, 1)
     absolute: str = "|theta - exact|, in rad"
     events: str = "passages through the bottom"
+    freedom: int = 1
     lacks: tuple[tuple[str, str], ...] = ()
 
 

@@ -37,7 +37,8 @@ def files(report: Report) -> dict[str, bytes]:
 def names(point: WorkPoint) -> dict[str, str]:
     """The names of the figures of a point's problem, and their titles."""
     amplitude = point.amplitude if isinstance(point.amplitude, str) else repr(point.amplitude)
-    stem = f"{point.family}-{reported_by(point.family).symbol}-{amplitude}"
+    kind = reported_by(point.family)
+    stem = f"{kind.name}-{kind.symbol}-{amplitude}"
     return {f"{stem}-{kind}": title for kind, (title, _, _) in FIGURES.items()}
 
 

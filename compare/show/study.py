@@ -158,11 +158,16 @@ def _defects(study: Study, case: Case, declared: dict[str, int], width: int) -> 
     for what, title in _DEFECTS.items():
         known = [defect for defect in found if not math.isnan(getattr(defect, what))]
         numbers = attrgetter(what, f"{what}_rounding")
-        yield from plain(known, what, title.format(case.label), numbers, (declared, width))
+        yield from plain(known, what, title.format(case.label, _FORMS[case.freedom > 1]), numbers, (declared, width))
 
 
+_FORMS = {
+    False: "|det d(y_n+1)/d(y_n) - 1|",
+    True: "|S' W S - W|, S = d(y_n+1)/d(y_n) and W the symplectic form,",
+}
+"""How far a step is from keeping the symplectic form, with one degree of freedom and with more."""
 _DEFECTS = {
-    "symplecticity": "Symplecticity defect, {}: largest |det d(y_n+1)/d(y_n) - 1| in position and momentum",
+    "symplecticity": "Symplecticity defect, {}: largest {} in position and momentum",
     "reversibility": "Reversibility defect, {}: distance from the start after N steps, turning round, N steps",
 }
 
