@@ -12,6 +12,9 @@ if TYPE_CHECKING:
 
     from reference.certified import Certified
     from reference.dataset.reader import Dataset
+    from reference.declaration import StateSpace
+    from reference.family import Family
+    from reference.problem import HamiltonianProblem, Problem, SeparableProblem
     from reference.problems.cycloid import Cycloid, CycloidalPendulum, CycloidArc, Tautochrone
     from reference.problems.descent import Descent
     from reference.problems.pendulum import LinearPendulum, Pendulum
@@ -24,9 +27,14 @@ __all__ = [
     "CycloidArc",
     "CycloidalPendulum",
     "Descent",
+    "Family",
+    "HamiltonianProblem",
     "LinearPendulum",
     "Pendulum",
     "PolarBrachistochrone",
+    "Problem",
+    "SeparableProblem",
+    "StateSpace",
     "Tautochrone",
     "Tunnel",
     "__version__",
@@ -39,9 +47,14 @@ _HOMES = {
     "CycloidArc": "reference.problems.cycloid",
     "CycloidalPendulum": "reference.problems.cycloid",
     "Descent": "reference.problems.descent",
+    "Family": "reference.family",
+    "HamiltonianProblem": "reference.problem",
     "LinearPendulum": "reference.problems.pendulum",
     "Pendulum": "reference.problems.pendulum",
     "PolarBrachistochrone": "reference.problems.polar",
+    "Problem": "reference.problem",
+    "SeparableProblem": "reference.problem",
+    "StateSpace": "reference.declaration",
     "Tautochrone": "reference.problems.cycloid",
     "Tunnel": "reference.problems.tunnel",
 }
