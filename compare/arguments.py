@@ -5,10 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from compare.claims import options as judge
-from compare.files import options as submission
+from compare.claims import options as claims
+from compare.files import options as files
 from compare.report import options as report
-from compare.show.study import FORMATS
+from compare.show.render import FORMATS
 from compare.solvers import options as solvers
 from compare.sources.errata import options as errata
 from compare.sources.published import options as published
@@ -41,7 +41,7 @@ _ROOMS: dict[str, Any] = {
     **studies.ROOMS,
     "solvers": solvers,
     "report": report,
-    "check": judge,
+    "check": claims,
     "errata": errata,
     "published": published,
 }
@@ -86,7 +86,7 @@ def parse(words: Sequence[str]) -> Request:
         raise ValueError(f"no command is given; {_alternatives(tuple(COMMANDS))} is accepted.")
     known = _parser(words).parse_args(words)
     read: dict[str, Callable[[argparse.Namespace], dict[str, Any]]]
-    read = {"score": submission.options, "show": _shown_method}
+    read = {"score": files.options, "show": _shown_method}
     read |= {command: room.options for command, room in _ROOMS.items()}
     return Request(
         command=known.command,
@@ -106,7 +106,7 @@ def _parser(words: Sequence[str] = ("score",)) -> Parser:
         epilog = _EPILOG if command in _NUMBERS else _MISTAKE
         one = commands.add_parser(command, help=text, description=text, epilog=epilog)
         if command == "score":
-            submission.add_options(one, with_families=words[0] == command)
+            files.add_options(one, with_families=words[0] == command)
         if command in _ROOMS:
             _ROOMS[command].add_options(one)
         if command == "show":

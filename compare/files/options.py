@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from compare.files.columns import asked_columns
 from compare.files.lines import Passed
-from compare.show.study import FORMATS
+from compare.show.render import FORMATS
 from reference.command.terminal import one_of
 from reference.names import short
 

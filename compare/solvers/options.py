@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from compare.show.render import FORMATS
-from reference.command import values as reading
+from reference.command import values
 from reference.command.terminal import one_of
 
 if TYPE_CHECKING:
@@ -41,15 +41,15 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 
 def options(known: argparse.Namespace) -> dict[str, Any]:
     """What was given, as arguments of ``compare.solvers.study.study``."""
-    number = reading.as_written if known.exact else reading.number
+    number = values.as_written if known.exact else values.number
     given: dict[str, Any] = {
-        name: reading.several(name, getattr(known, name), read)
-        for name, read in (("theta0", number), ("rtol", reading.number), ("solvers", reading.text))
+        name: values.several(name, getattr(known, name), read)
+        for name, read in (("theta0", number), ("rtol", values.number), ("solvers", values.text))
         if getattr(known, name) is not None
     }
     for name in ("g", "length", "t_end"):
         if getattr(known, name) is not None:
             given[name] = number(getattr(known, name), name.replace("_", "-"))
     if known.max_evaluations is not None:
-        given["max_evaluations"] = reading.whole(known.max_evaluations, "max-evaluations", "number of evaluations")
+        given["max_evaluations"] = values.whole(known.max_evaluations, "max-evaluations", "number of evaluations")
     return given

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from compare.measure.wanted import DEFAULT_SCORES, SCORES
 from compare.show.render import FORMATS
-from reference.command import values as reading
+from reference.command import values
 from reference.command.terminal import one_of
 
 if TYPE_CHECKING:
@@ -41,7 +41,7 @@ def _numbers(metavar: str, text: str) -> Option:
 
 
 def _words(metavar: str, text: str) -> Option:
-    return Option(metavar, f"{text}; may repeat", reading.text, several=True)
+    return Option(metavar, f"{text}; may repeat", values.text, several=True)
 
 
 GRAVITY = _number("G", "gravity in m/s^2 (default 9.81)")
@@ -70,8 +70,8 @@ FAMILIES: dict[str, dict[str, Option]] = {
     },
     "descent": {
         "curve": _words("CURVE", "a name of the race, or a formula (default quartic and cycloid)"),
-        "start": Option("X", "where x or p of a formula begins, such as pi", reading.text),
-        "end": Option("X", "where x or p of a formula ends, such as 0", reading.text),
+        "start": Option("X", "where x or p of a formula begins, such as pi", values.text),
+        "end": Option("X", "where x or p of a formula ends, such as 0", values.text),
         "g": GRAVITY,
         "t-end": _number("T", "end of the march in s (default: almost the end of the curve)"),
     },
@@ -123,15 +123,15 @@ class Room:
 
     def options(self, known: argparse.Namespace) -> dict[str, Any]:
         """The arguments of the study, only those that were given."""
-        number = reading.as_written if known.exact else reading.number
+        number = values.as_written if known.exact else values.number
         given: dict[str, Any] = {}
         for name, option in FAMILIES[self.family].items():
             words = getattr(known, name.replace("-", "_"))
             if words is not None:
                 given[name.replace("-", "_")] = _read(name, words, option, number)
-        for name, read in (("methods", reading.text), ("n", reading.whole), ("scores", reading.text)):
+        for name, read in (("methods", values.text), ("n", values.whole), ("scores", values.text)):
             if getattr(known, name) is not None:
-                given[name] = reading.several(name, getattr(known, name), read)
+                given[name] = values.several(name, getattr(known, name), read)
         if known.precision is not None:
             given["precision"] = known.precision
         if known.compensated:
@@ -145,8 +145,8 @@ def _read(name: str, words: Any, option: Option, number: Callable[[str, str], An
     if not option.several:
         return read(words, name)
     if option.metavar == "X,Y":
-        return tuple(reading.pair(word, name, number) for word in words)
-    return reading.several(name, words, read)
+        return tuple(values.pair(word, name, number) for word in words)
+    return values.several(name, words, read)
 
 
 ROOMS = {family: Room(family) for family in FAMILIES}
