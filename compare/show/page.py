@@ -44,6 +44,7 @@ Block = Table | Head | Sentence | str
 class Lines:
     """A list or an object of JSON with a line for each entry; other lists and objects stand in one line.
 
+    It stands in other lines, or directly in what stands in one.
     Where there is no entry it stands in one line too, unless it is to be ``opened`` always.
     """
 

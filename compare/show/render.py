@@ -96,14 +96,20 @@ def _json(value: Any, margin: str, step: str) -> str:
     """A value in a line of this margin; the entries of ``Lines`` have a step more."""
     spread = isinstance(value, Lines)
     entries, inner = (value.entries, margin + step) if spread else (value, margin)
+    if not spread and not _has_lines(entries):
+        return json.dumps(plain(value), ensure_ascii=False)
     if isinstance(entries, Mapping):
         brackets = "{}"
         items = [f"{_json(str(key), inner, step)}: {_json(item, inner, step)}" for key, item in entries.items()]
-    elif isinstance(entries, (list, tuple)):
+    else:
         brackets = "[]"
         items = [_json(item, inner, step) for item in entries]
-    else:
-        return json.dumps(plain(value), ensure_ascii=False)
     if spread and (items or value.opened):
         return "\n".join((brackets[0], ",\n".join(inner + item for item in items), margin + brackets[1]))
     return ", ".join(items).join(brackets)
+
+
+def _has_lines(value: Any) -> bool:
+    """Whether an entry of the value has lines of its own."""
+    entries = value.values() if isinstance(value, Mapping) else value if isinstance(value, (list, tuple)) else ()
+    return any(isinstance(entry, Lines) for entry in entries)

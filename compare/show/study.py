@@ -36,7 +36,7 @@ if TYPE_CHECKING:
     from compare.show.page import Page
     from compare.show.study_page import Columns
 
-__all__ = ["COLUMNS", "page", "plain", "tables"]
+__all__ = ["COLUMNS", "page", "tables"]
 
 COLUMNS: Columns = {
     "error_vs_n": field_names(Cell, "velocity_rounding", "order_rounding"),
@@ -98,7 +98,7 @@ def _phase(study: Study, case: Case, declared: dict[str, int], width: int) -> It
         note=legend(grids, _LOST_NOTE if any(phase.lost for phase in found) else ""),
     )
     if not all(math.isnan(phase.max_amplitude_error) for phase in found):
-        yield from plain(
+        yield from _one_number(
             found,
             "amplitude",
             f"Amplitude, {case.label}: largest |amplitude - exact| over the sample times, in units of the place",
@@ -154,7 +154,7 @@ def _growth_cells(growth: Growth) -> list[str]:
 
 
 def _period(study: Study, case: Case, declared: dict[str, int], width: int) -> Iterator[Table]:
-    yield from plain(
+    yield from _one_number(
         [period for period in study.period or () if period.case == case],
         "period",
         f"Period, {case.label}: own/exact - 1, between two passages through the bottom, each where the phase of the "
@@ -169,7 +169,7 @@ def _defects(study: Study, case: Case, declared: dict[str, int], width: int) -> 
     for what, title in _DEFECTS.items():
         known = [defect for defect in found if not math.isnan(getattr(defect, what))]
         numbers = attrgetter(what, f"{what}_rounding")
-        yield from plain(known, what, title.format(case.label), numbers, (declared, width))
+        yield from _one_number(known, what, title.format(case.label), numbers, (declared, width))
 
 
 _DEFECTS = {
@@ -178,7 +178,7 @@ _DEFECTS = {
 }
 
 
-def plain(
+def _one_number(
     records: Sequence[Any],
     name: str,
     title: str,
@@ -283,7 +283,7 @@ def _drift_table(drifts: Sequence[Drift], declared: dict[str, int], width: int) 
     size = f"|{change.partition('/')[0].strip('()')}|/{change.partition('/')[2]}"
     title = f"{name} drift, {case.label}: max {size} over every step"
     numbers = attrgetter("max_drift_above_rest", "rounding")
-    yield from plain(drifts, "energy-drift", title, numbers, (declared, width))
+    yield from _one_number(drifts, "energy-drift", title, numbers, (declared, width))
 
 
 def _slope_table(drifts: Sequence[Drift], declared: dict[str, int], width: int) -> Table:
