@@ -64,6 +64,17 @@ def test_only_the_dataset_knows_the_file_format(path):
         assert not {name for name in imports(path) if name.split(".")[0] == "h5py"}
 
 
+WRITERS = {"render.py": ("csv.writer", "DictWriter"), "text_table.py": ("toprule", "rjust", "textasciitilde")}
+"""What lays out tables, and the one module of compare/show that has it."""
+
+
+@pytest.mark.parametrize("path", [path for path in SOURCES if path.is_relative_to(ROOT / "compare")], ids=id_of)
+def test_tables_are_written_in_one_place(path):
+    text = path.read_text(encoding="utf-8")
+    for home, words in WRITERS.items():
+        assert path == ROOT / "compare" / "show" / home or not [word for word in words if word in text]
+
+
 @pytest.mark.parametrize("path", SOURCES, ids=id_of)
 def test_nothing_imports_the_tests(path):
     assert not {

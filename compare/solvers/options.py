@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from compare.options import inputs_given, inputs_offered
 from compare.show.render import FORMATS
-from reference.command import values as reading
+from reference.command import values
 from reference.command.terminal import one_of
 from reference.problems.families import find_family
 
@@ -47,11 +47,11 @@ def options(known: argparse.Namespace, families: Sequence[Family]) -> dict[str, 
     """What was given, as arguments of ``compare.solvers.study.study``."""
     family = find_family(known.problem)
     given: dict[str, Any] = {"problem": family, **inputs_given(family, known, families)}
-    for name, read in (("rtol", reading.number), ("solvers", reading.text)):
+    for name, read in (("rtol", values.number), ("solvers", values.text)):
         if getattr(known, name) is not None:
-            given[name] = reading.several(name, getattr(known, name), read)
+            given[name] = values.several(name, getattr(known, name), read)
     if known.t_end is not None:
-        given["t_end"] = (reading.as_written if known.exact else reading.number)(known.t_end, "t-end")
+        given["t_end"] = (values.as_written if known.exact else values.number)(known.t_end, "t-end")
     if known.max_evaluations is not None:
-        given["max_evaluations"] = reading.whole(known.max_evaluations, "max-evaluations", "number of evaluations")
+        given["max_evaluations"] = values.whole(known.max_evaluations, "max-evaluations", "number of evaluations")
     return given

@@ -17,8 +17,9 @@ from compare.files.crew import Crew
 from compare.files.exact_rows import Times
 from compare.files.fast_path import BoundError, Sift
 from compare.files.judge import Judge
-from compare.files.show import json_text
+from compare.files.show import page
 from compare.files.written import of_decimal
+from compare.show.render import render
 from reference import Pendulum
 
 SWING, TURNING = Pendulum(1.0), Pendulum(3, omega0=7)
@@ -44,7 +45,7 @@ def judged(problem: Pendulum, parts: list[Chunk], *, sifted: bool, keep: int = 9
         found = points(part)()
         running.add(found)
         count += len(found)
-    return json_text(judge.score(running, "as written")), count
+    return render(page(judge.score(running, "as written")), "json"), count
 
 
 def verlet(rows: int, h: float) -> np.ndarray:
