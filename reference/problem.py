@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from reference.declaration import ClosedForm, Form, Invariant, Row, Solution, StateSpace, Trial
     from reference.orbits import Orbits
     from reference.row_domains import Domain
+    from reference.state_bounds import StateBounds
 
 __all__ = ["APART", "HamiltonianProblem", "Problem", "SeparableProblem"]
 
@@ -136,6 +137,10 @@ class Problem:
     def lacks_of_orbits(self) -> str:
         """What of phase and amplitude the exact motion lacks, in a sentence; "" where it has both."""
         return f"Phase and amplitude are not defined for the problem {self.name}."
+
+    def state_bounds(self) -> StateBounds | None:
+        """What bounds many of its states in doubles, to spare their proofs; None where nothing does."""
+        return None
 
     event_words: ClassVar[str] = "events"
     """What the events of ``passages`` are called."""

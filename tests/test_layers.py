@@ -11,6 +11,9 @@ from pathlib import Path
 
 import pytest
 
+import reference
+from reference.problems.families import FAMILIES
+
 ROOT = Path(__file__).parents[1]
 PACKAGES = ("reference", "compare")
 SOURCES = sorted(path for package in PACKAGES for path in (ROOT / package).rglob("*.py"))
@@ -104,7 +107,7 @@ LAYERS = (
     ("reference.named",),
     ("reference.arithmetic",),
     ("reference.constants", "reference.row_domains", "compare.methods"),
-    ("reference.declaration", "reference.orbits"),
+    ("reference.declaration", "reference.orbits", "reference.state_bounds"),
     ("reference.routes",),
     ("reference.certified",),
     ("reference.problem",),
@@ -156,3 +159,33 @@ def test_importing_a_package_leaves_the_slow_libraries_for_later(package):
     code = f"import sys, {package}; print([name for name in {slow} if name in sys.modules])"
     done = subprocess.run([sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, check=True)
     assert done.stdout.strip() == "[]"
+
+
+FAMILY_NAMES = {word for family in FAMILIES for word in (family.name, family.comparison.command)}
+TO_SUBCLASS = {"Certified", "Family", "HamiltonianProblem", "Problem", "SeparableProblem", "StateSpace"}
+JUDGES = [path for path in SOURCES if path.is_relative_to(ROOT / "compare") and "sources" not in path.parts]
+
+
+@pytest.mark.parametrize("path", JUDGES, ids=id_of)
+def test_no_judge_names_a_family(path):
+    """What a score must know of a problem is declared by the problem: none asks for its name or its class."""
+    tree = ast.parse(path.read_text(encoding="utf-8"))
+    homes = {name for name in imports(path) if name.startswith("reference.problems.")}
+    assert {name for name in homes if not name.startswith("reference.problems.families")} == set()
+    classes = {name for name in reference.__all__ if name[0].isupper()} - {
+        "Certified",
+        "Family",
+        "Problem",
+        "StateSpace",
+    }
+    classes -= {"HamiltonianProblem", "SeparableProblem"}
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Name):
+            assert node.id not in classes, f"line {node.lineno} names {node.id}"
+        if isinstance(node, ast.Constant) and isinstance(node.value, str):
+            assert node.value not in FAMILY_NAMES, f"line {node.lineno} names {node.value}"
+        if isinstance(node, ast.Compare) and isinstance(node.left, ast.Attribute):
+            told = ast.unparse(node.left)
+            assert not told.endswith("problem.name"), f"line {node.lineno} asks for {told}"
+        if isinstance(node, ast.Call) and ast.unparse(node.func) == "getattr" and len(node.args) == 3:
+            assert "problem" not in ast.unparse(node.args[0]), f"line {node.lineno} reads a problem with a default"

@@ -24,9 +24,9 @@ from compare.claims.limits import SECONDS
 from compare.claims.order import ladder, measured
 from compare.claims.powers import lower, powers
 from compare.claims.record import Check
-from reference import Pendulum
 from reference.arithmetic.underflow import require_gradual
 from reference.problem import SeparableProblem
+from reference.problems.families import usual_problem
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -89,7 +89,7 @@ def check(
             or takes too long; or the order of an integrator is claimed that chooses its own steps.
     """
     require_gradual("a check")
-    tried = Pendulum(1.0) if problem is None else problem
+    tried = usual_problem() if problem is None else problem
     if not isinstance(tried, SeparableProblem):
         raise TypeError(
             f"problem is {tried!r}; a problem with positions and momenta, such as Pendulum(1.0), is accepted."

@@ -8,7 +8,7 @@ from compare.options import inputs_given, inputs_offered
 from compare.show.render import FORMATS
 from reference.command import values
 from reference.command.terminal import one_of
-from reference.problems.families import find_family
+from reference.problems.families import USUAL, find_family
 
 if TYPE_CHECKING:
     import argparse
@@ -22,7 +22,7 @@ __all__ = ["add_options", "options"]
 def add_options(parser: argparse.ArgumentParser, families: Sequence[Family]) -> None:
     """Add them to a parser, the inputs of the families among them."""
     several: dict[str, Any] = {"action": "append", "metavar": "A,B"}
-    parser.add_argument("--problem", default="pendulum", metavar="NAME", help="family of problems (default pendulum)")
+    parser.add_argument("--problem", default=USUAL, metavar="NAME", help=f"family of problems (default {USUAL})")
     inputs_offered(families, parser)
     parser.add_argument("--t-end", metavar="T", help="the last time in s, or in the problem's unit (default 10)")
     parser.add_argument("--rtol", **several, help="tolerances (default 1e-3, 1e-5, ... 1e-11); may repeat")

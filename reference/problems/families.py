@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from functools import cache
+from typing import TYPE_CHECKING
 
 from reference.family import Family
 from reference.named import named
@@ -13,7 +14,10 @@ from reference.problems.pendulum import family as pendulum
 from reference.problems.polar import family as polar
 from reference.problems.tunnel import family as tunnel
 
-__all__ = ["FAMILIES", "find_family"]
+if TYPE_CHECKING:
+    from reference.problem import Problem
+
+__all__ = ["FAMILIES", "USUAL", "find_family", "usual_problem"]
 
 FAMILIES = (
     pendulum.FAMILY,
@@ -24,6 +28,16 @@ FAMILIES = (
     polar.FAMILY,
     tunnel.FAMILY,
 )
+
+
+USUAL = FAMILIES[0].name
+"""The family of what is tried where none is named."""
+
+
+def usual_problem() -> Problem:
+    """The problem that an integrator is tried on where none is named: the first value of the usual family."""
+    family = FAMILIES[0]
+    return family.problem(**{family.comparison.varied: family.comparison.values[0]})
 
 
 @cache

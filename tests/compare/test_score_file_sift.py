@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from compare.__main__ import main
-from compare.files import bounds, fast_path
+from compare.files import fast_path
 from compare.files.arrays import Sliced, chunks
 from compare.files.chunk import Chunk, Doubles, Row
 from compare.files.columns import Columns
@@ -187,7 +187,7 @@ def test_no_exact_row_is_outside_its_bounds(problem):
     edge = 2 * math.sqrt(9.81) * np.cos(y[::5, 0] / 2) * (1 + 10.0 ** RANDOM.uniform(-17, -1, 80))
     y[::5, 1] = edge * RANDOM.choice([-1, 1], 80)
     numbers = np.column_stack([t, y])
-    found = bounds.bounder(problem).bounds(numbers, 0.0)
+    found = problem.state_bounds().bounds(numbers, 0.0)
     judge = Judge(problem)
     judge.expect([53 * math.log10(2)])
     points = judge.some(range(400), chunked(numbers, 400)[0].rows())
@@ -197,7 +197,7 @@ def test_no_exact_row_is_outside_its_bounds(problem):
 
 def test_the_bounds_are_near_what_they_bound():
     table = spoiled(SWING, 1e-4)
-    found = bounds.bounder(SWING).bounds(table, 0.0)
+    found = SWING.state_bounds().bounds(table, 0.0)
     points = Judge(SWING).points(chunked(table, len(table))[0].rows())
     phases = np.array([abs(point.phase_error) for point in points])
     assert np.all(found.found.phase - phases < 1e-11)
@@ -205,7 +205,7 @@ def test_the_bounds_are_near_what_they_bound():
 
 
 def test_a_bound_that_is_wrong_is_an_error_and_not_a_result(monkeypatch):
-    monkeypatch.setattr("compare.files.bounds.SLACK", -1e-3)
+    monkeypatch.setattr("reference.problems.pendulum.bounds.SLACK", -1e-3)
     with pytest.raises(BoundError, match="was found outside its bounds"):
         judged(SWING, chunked(verlet(2000, 1 / 64)), sifted=True)
 

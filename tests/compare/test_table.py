@@ -118,7 +118,8 @@ def test_programs_are_given_these_fields_of_the_records():
         "error_vs_n": f"{where} max_error end_error local_order floor evaluations rms_error max_velocity_error "
         "end_velocity_error rms_velocity_error digits jacobians rounding",
         "order": "method case declared_order fitted_order spread cells_used n_range rounding",
-        "energy_drift": f"{where} max_drift_above_rest max_drift_relative slope_per_period slope_interval rounding",
+        "energy_drift": f"{where} invariant max_drift_above_rest max_drift_relative slope_per_period slope_interval "
+        "rounding",
         "phase": f"{where} max_phase_error end_phase_error max_amplitude_error end_amplitude_error lost phase_rounding "
         "amplitude_rounding",
         "growth": f"{where} quantity exponent interval law windows starts floor",

@@ -39,6 +39,7 @@ if TYPE_CHECKING:
     from reference.declaration import Invariant, Row, StateSpace, Trial
     from reference.orbits import Orbits
     from reference.problems.pendulum.approximations import LindstedtSolution, PeriodSeries
+    from reference.problems.pendulum.bounds import PendulumBounds
 
 __all__ = ["Pendulum"]
 
@@ -257,6 +258,14 @@ class Pendulum(SeparableProblem):
             "rest": "At rest there is no phase.",
         }
         return lacks.get(self.motion, "")
+
+    def state_bounds(self) -> PendulumBounds | None:
+        """Of librations and rotations."""
+        from reference.problems.pendulum.bounds import PendulumBounds
+
+        if self.motion not in {"libration", "rotation"}:
+            return None
+        return PendulumBounds(self, rotates=self.motion == "rotation")
 
     def passages(self, until: float) -> tuple[str, int] | None:
         """The passages through the bottom."""
