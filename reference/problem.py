@@ -7,8 +7,6 @@ from dataclasses import dataclass, fields
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any, ClassVar
 
-import numpy as np
-
 from reference.arithmetic.dual import Dual, DualArithmetic
 from reference.arithmetic.exact import exact_array, positive
 from reference.arithmetic.limbs import MAX_BITS, MAX_LIMBS, to_limbs
@@ -21,6 +19,8 @@ from reference.routes import enclosure, quadrature
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
+
+    import numpy as np
 
     from reference.arithmetic.protocols import Arithmetic
     from reference.constants import Constant
@@ -154,6 +154,8 @@ class Problem:
 
         Of itself the largest eigenvalue of df/dy at some states of the exact motion; a family may know a bound.
         """
+        from reference.arithmetic.arrays import np
+
         period = self.cycle()
         end = Fraction(period) if math.isfinite(period) else Fraction(SEEN)
         times = [end * Fraction(k, STATES) for k in range(STATES + 1)]
@@ -282,7 +284,13 @@ class Problem:
         return Certified(self, row, argument, component)
 
     def values(self, row: str, arguments: Sequence[Any], count: int) -> np.ndarray:
-        """The correctly rounded limbs of a row: float64 of shape (arguments, quantities, count)."""
+        """The correctly rounded limbs of a row: float64 of shape (arguments, quantities, count).
+
+        Raises:
+            ModuleNotFoundError: NumPy is not installed; ``certified`` does without.
+        """
+        from reference.arithmetic.arrays import np
+
         found = enclosure.decide(
             self,
             row,
