@@ -284,11 +284,7 @@ class Problem:
         return Certified(self, row, argument, component)
 
     def values(self, row: str, arguments: Sequence[Any], count: int) -> np.ndarray:
-        """The correctly rounded limbs of a row: float64 of shape (arguments, quantities, count).
-
-        Raises:
-            ModuleNotFoundError: NumPy is not installed; ``certified`` does without.
-        """
+        """The correctly rounded limbs of a row: float64 of shape (arguments, quantities, count)."""
         from reference.arithmetic.arrays import np
 
         found = enclosure.decide(
@@ -314,6 +310,7 @@ class Problem:
         Raises:
             ValueError: ``t`` is empty, not finite or out of range, or ``limbs`` is not an integer from 1 to MAX_LIMBS.
             WorkBoundError: a value could not be decided within the bound on the working precision.
+            ModuleNotFoundError: NumPy is not installed; ``certified`` does without.
         """
         return self.along("state", t, limbs)
 
@@ -326,6 +323,7 @@ class Problem:
                 MAX_LIMBS.
             TypeError: ``arguments`` holds what is no real number.
             WorkBoundError: a value could not be decided within the bound on the working precision.
+            ModuleNotFoundError: NumPy is not installed; ``certified`` does without.
         """
         asked, limbs = self.row(row), positive(limbs, "limbs", MAX_LIMBS)
         once: tuple[list[Any], tuple[int, ...]] = [arguments], ()
