@@ -9,13 +9,13 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from reference.command.terminal import Parser, one_of, progress_bar, run
-from reference.dataset.cite import FORMATS as CITE_FORMATS
 from reference.names import short
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
 FORMATS = ("text", "json")
+CITATIONS = ("bibtex", "text")
 
 
 def command(arguments: Sequence[str] | None = None) -> int:
@@ -30,14 +30,12 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def _parser() -> Parser:
-    from reference.dataset.catalogue import PROFILES
-
     parser = Parser(prog="python -m reference", description="Reference values, proven correctly rounded.")
     commands = parser.add_subparsers(dest="command", metavar="COMMAND", required=True, parser_class=Parser)
     build = commands.add_parser("build", help="prove the values of a profile and write them as a dataset")
     build.add_argument("--out", metavar="FILE", help="the file to write (default: the core dataset's place)")
     numbers = build.add_mutually_exclusive_group()
-    numbers.add_argument("--profile", type=one_of("profile", tuple(PROFILES)), default="core", help="core or full")
+    numbers.add_argument("--profile", default="core", help="core or full")
     numbers.add_argument("--config", metavar="FILE.toml", help="groups, parameters and numbers of your own")
     _add_workers(build)
     build.set_defaults(run=_build)
@@ -53,7 +51,7 @@ def _parser() -> Parser:
     _add_at(commands)
     cite = commands.add_parser("cite", help="print how to cite the dataset, with version and fingerprint")
     cite.add_argument("file", metavar="FILE", nargs="?", help="default: the core dataset")
-    cite.add_argument("--format", type=one_of("format", CITE_FORMATS), default="bibtex", help="bibtex or text")
+    cite.add_argument("--format", type=one_of("format", CITATIONS), default="bibtex", help="bibtex or text")
     cite.set_defaults(run=_cite)
     datasheet = commands.add_parser("datasheet", help="print the datasheet of a dataset, in Markdown")
     datasheet.add_argument("file", metavar="FILE", nargs="?", help="default: the core dataset")

@@ -9,22 +9,26 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
-from reference.arithmetic.binary64 import unsigned_zeros
 from reference.arithmetic.exact import exact
 from reference.once import cached_property
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator, Mapping
+    from collections.abc import Callable, Iterable, Iterator, Mapping
+
+    import numpy as np
 
     from reference.declaration import Quantity, Row
     from reference.problem import Problem
 
-__all__ = ["BLOCK_LENGTH", "Block", "Component", "Coordinate", "Group", "Layout"]
+__all__ = ["BLOCK_LENGTH", "Block", "Component", "Coordinate", "Group", "Layout", "parts"]
 
 BLOCK_LENGTH = 2048
 """Times in one block: the unit of work, of resuming and of storage, and so the bound on memory."""
+
+
+def parts(numbers: Iterable[int], whole: int) -> list[float]:
+    """Numbers along an axis as parts of a whole: each k/whole, rounded once."""
+    return [k / whole for k in numbers]
 
 
 @dataclass(frozen=True)
@@ -48,9 +52,9 @@ class Coordinate:
     meanings: tuple[str, ...] = ()
 
     @property
-    def dtype(self) -> np.dtype[Any]:
-        """Little-endian int32 for labels, float64 otherwise."""
-        return np.dtype("<i4" if self.whole or self.meanings else "<f8")
+    def dtype(self) -> str:
+        """Little-endian int32 for labels, float64 otherwise, as NumPy spells them."""
+        return "<i4" if self.whole or self.meanings else "<f8"
 
 
 @dataclass(frozen=True)
@@ -201,6 +205,8 @@ class Group:
     taylor_elements: int | None = None
 
     def __post_init__(self) -> None:
+        from reference.arithmetic.arrays import np, unsigned_zeros
+
         wanted = {coordinate.name: coordinate for coordinate in self.layout.given}
         index = "" if self.layout.index is None else self.layout.index.name
         parameters = {parameter.name for parameter in self.layout.parameters}
@@ -221,6 +227,8 @@ class Group:
 
     def _counted(self, index: Coordinate, count: int) -> dict[str, np.ndarray]:
         """The index 0, 1, 2, ..., which may have been given as that and nothing else."""
+        from reference.arithmetic.arrays import np
+
         counted = np.arange(count, dtype=index.dtype)
         if not np.array_equal(self.inputs.get(index.name, counted), counted):
             raise ValueError(f"{self.layout.path}/{index.name} counts its elements 0, 1, 2, ...; it cannot be chosen.")
@@ -243,6 +251,8 @@ class Group:
 
     def _stretches(self, row: Row) -> Iterator[tuple[int, np.ndarray]]:
         if row.over == "once":
+            from reference.arithmetic.arrays import np
+
             yield 0, np.empty(0)
             return
         values = self.inputs[self.layout.over[row.over].name]

@@ -7,8 +7,6 @@ from dataclasses import dataclass, fields
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any, ClassVar
 
-import numpy as np
-
 from reference.arithmetic.dual import Dual, DualArithmetic
 from reference.arithmetic.exact import exact_array, positive
 from reference.arithmetic.limbs import MAX_BITS, MAX_LIMBS, to_limbs
@@ -21,6 +19,8 @@ from reference.routes import enclosure, quadrature
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
+
+    import numpy as np
 
     from reference.arithmetic.protocols import Arithmetic
     from reference.constants import Constant
@@ -159,6 +159,8 @@ class Problem:
 
         Of itself the largest eigenvalue of df/dy at some states of the exact motion; a family may know a bound.
         """
+        from reference.arithmetic.arrays import np
+
         period = self.cycle()
         end = Fraction(period) if math.isfinite(period) else Fraction(SEEN)
         times = [end * Fraction(k, STATES) for k in range(STATES + 1)]
@@ -288,6 +290,8 @@ class Problem:
 
     def values(self, row: str, arguments: Sequence[Any], count: int) -> np.ndarray:
         """The correctly rounded limbs of a row: float64 of shape (arguments, quantities, count)."""
+        from reference.arithmetic.arrays import np
+
         found = enclosure.decide(
             self,
             row,
@@ -311,6 +315,7 @@ class Problem:
         Raises:
             ValueError: ``t`` is empty, not finite or out of range, or ``limbs`` is not an integer from 1 to MAX_LIMBS.
             WorkBoundError: a value could not be decided within the bound on the working precision.
+            ModuleNotFoundError: NumPy is not installed; ``certified`` does without.
         """
         return self.along("state", t, limbs)
 
@@ -323,6 +328,7 @@ class Problem:
                 MAX_LIMBS.
             TypeError: ``arguments`` holds what is no real number.
             WorkBoundError: a value could not be decided within the bound on the working precision.
+            ModuleNotFoundError: NumPy is not installed; ``certified`` does without.
         """
         asked, limbs = self.row(row), positive(limbs, "limbs", MAX_LIMBS)
         once: tuple[list[Any], tuple[int, ...]] = [arguments], ()

@@ -103,7 +103,7 @@ def test_every_name_that_a_module_promises_is_there(name):
 
 
 LAYERS = (
-    ("reference.names", "reference.once", "reference.version"),
+    ("reference.names", "reference.once", "reference.packages", "reference.version"),
     ("reference.named",),
     ("reference.arithmetic",),
     ("reference.constants", "reference.row_domains", "compare.methods"),

@@ -7,9 +7,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from reference.dataset.reader import Dataset
 
-__all__ = ["FORMATS", "cite"]
-
-FORMATS = ("bibtex", "text")
+__all__ = ["cite"]
 
 
 def cite(dataset: Dataset, form: str = "bibtex") -> str:

@@ -22,7 +22,8 @@ import h5py
 import numpy as np
 from h5py import h5a, h5o
 
-from reference.arithmetic.binary64 import hexadecimal, is_negative_zero
+from reference.arithmetic.arrays import is_negative_zero
+from reference.arithmetic.binary64 import hexadecimal
 from reference.dataset.attributes import refusal, text_of, value_of
 from reference.dataset.errors import DatasetError
 from reference.dataset.schema import PROVENANCE

@@ -15,7 +15,7 @@ import h5py
 import numpy as np
 from h5py import h5d, h5l, h5o, h5z
 
-from reference.arithmetic.binary64 import is_negative_zero
+from reference.arithmetic.arrays import is_negative_zero
 from reference.dataset.attributes import TYPES, bounded, refusal, says, text_of, texts
 from reference.dataset.catalogue import PROFILES
 from reference.dataset.claims import free_attributes, limbs_fault, measurement_fault

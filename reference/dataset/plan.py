@@ -13,7 +13,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from reference.arithmetic.binary64 import hexadecimal, in_order, nearest
+from reference.arithmetic.arrays import in_order
+from reference.arithmetic.binary64 import hexadecimal, nearest
 from reference.layout import BLOCK_LENGTH
 
 if TYPE_CHECKING:

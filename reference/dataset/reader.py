@@ -19,6 +19,7 @@ from reference.dataset.inspection import SIGNATURE, inspect
 from reference.dataset.schema import LIMB, PROVENANCE, arrays
 from reference.names import unknown
 from reference.once import cached_property
+from reference.packages import required
 
 if TYPE_CHECKING:
     import os
@@ -231,10 +232,7 @@ class Dataset(Mapping[str, Variable]):
             ImportError: xarray is not installed.
             KeyError: there is no such group.
         """
-        try:
-            import xarray
-        except ImportError:
-            raise ImportError("xarray is not installed; 'pip install horologium[xarray]' provides it.") from None
+        xarray = required("xarray", install="horologium[xarray]")
         if group is None:
             return xarray.DataTree.from_dict({name: self.to_xarray(name) for name in self.groups})
         name = group.strip("/")

@@ -158,7 +158,7 @@ def arrays(layout: Layout, schema: Schema) -> Iterator[Array]:
         dimension = layout.dimension_of(coordinate.name)
         yield Array(
             coordinate.name,
-            coordinate.dtype,
+            np.dtype(coordinate.dtype),
             (dimension,),
             _described(coordinate, schema),
             is_scale=coordinate.name == dimension,

@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from reference.arithmetic.binary64 import shortest, unsigned_zeros
+from reference.arithmetic.arrays import unsigned_zeros
+from reference.arithmetic.binary64 import shortest
 from reference.command.executors import opened, results
 from reference.dataset.blocks import LIMBS, START_BITS, compare, decimals, prove
 from reference.dataset.claims import decimal_fault, measurement_fault

@@ -8,8 +8,6 @@ from fractions import Fraction
 from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
 from reference.arithmetic.namespaces import MPMATH, Heyoka
 from reference.once import cached_property
 
@@ -65,8 +63,7 @@ class Flow:
         """
         moments = sorted({Fraction(0), *times})
         integrator = self._integrator(tuple(variational), order)
-        grid = np.array([self._real(moment) for moment in moments])
-        outcome, *_, states = integrator.propagate_grid(grid)
+        outcome, *_, states = integrator.propagate_grid([self._real(moment) for moment in moments])
         if outcome != self._hy.taylor_outcome.time_limit:
             raise ArithmeticError(f"heyoka stopped with {outcome} before the last time of {self._problem!r}.")
         found = {

@@ -216,7 +216,7 @@ class Descent(Problem):
 
     def rate(self) -> float:
         """The largest |d(w'')/d(w')| + sqrt|d(w'')/dw| at places along the motion."""
-        duals: Any = DualArithmetic(NUMPY, 2)  # type: ignore[arg-type] # formulas ask for no elliptic functions
+        duals: Any = DualArithmetic(NUMPY, 2)
         until = Fraction(float(self.descent_time())) * (1 - Fraction(1, 16))
         found = [0.0]
         for w, by_time in self.state([until * Fraction(k, 16) for k in range(self.slide.order - 1, 17)]):
