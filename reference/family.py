@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Literal
 
 from reference.arithmetic.exact import as_number, exact
-from reference.names import short, unknown
+from reference.names import each_once, short, unknown
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -201,10 +201,7 @@ class Family:
 
     def __post_init__(self) -> None:
         names = [asked.name for asked in self.inputs]
-        for name in names:
-            if not name.isidentifier() or names.count(name) > 1:
-                wrong = f"{names.count(name)} times" if name.isidentifier() else "which is no name in Python"
-                raise ValueError(f"{short(self.name)} has the input '{short(name)}', {wrong}; a name once is accepted.")
+        each_once(f"the family {short(self.name)}", names)
         for name in (self.comparison.varied, *self.comparison.inputs):
             if name not in names:
                 raise ValueError(unknown(f"the input of the comparison of {short(self.name)},", name, names))

@@ -14,7 +14,7 @@ import numpy as np
 
 from reference.arithmetic.binary64 import unsigned_zeros
 from reference.arithmetic.exact import exact
-from reference.names import short
+from reference.names import each_once, short
 from reference.once import cached_property
 
 if TYPE_CHECKING:
@@ -102,18 +102,12 @@ class Layout:
 
     def __post_init__(self) -> None:
         if not PATH.fullmatch(self.path):
-            raise ValueError(
-                f"the path of a group is '{short(self.path)}'; one such as /pendulum/libration is accepted."
-            )
+            raise ValueError(f"the group's path is '{short(self.path)}'; one such as /pendulum/libration is accepted.")
         for row in self.rows:
             if row.over not in {"once", *self.over}:
                 raise ValueError(f"{self.path} has the row {row.name} over '{row.over}', and no coordinate for that.")
         values = [name for row in self.rows for one in row.quantities for name in (one.name, f"{one.name}_tail")]
-        names = [coordinate.name for coordinate in (*self.coordinates, *self.parameters)] + values
-        for name in names:
-            if not name.isidentifier() or names.count(name) > 1:
-                wrong = f"{names.count(name)} times" if name.isidentifier() else "which is no name in Python"
-                raise ValueError(f"{self.path} has '{short(name)}', {wrong}; a name once is accepted.")
+        each_once(self.path, [*(one.name for one in (*self.coordinates, *self.parameters)), *values])
 
     @property
     def first(self) -> tuple[Coordinate, ...]:
