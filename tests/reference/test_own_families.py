@@ -29,6 +29,7 @@ from reference.dataset.verify import verify
 from reference.layout import Coordinate, Group
 from reference.problem import Problem, SeparableProblem, UndeclaredError
 from reference.problems.families import FAMILIES
+from reference.problems.pendulum.family import EARTH, LONG
 
 ROOT = Path(reference.__file__).parents[1]
 NAME = "oscillator:OSCILLATOR"
@@ -219,6 +220,15 @@ def test_a_file_may_name_a_family_only_with_a_group_of_one(own, built, tmp_path)
         with pytest.raises(DatasetError, match=words):
             reference.load(altered(path, command), [OSCILLATOR])
     assert reference.load(altered(own, build_it), [OSCILLATOR]).families == ()
+
+
+def test_a_plan_of_one_of_our_families_says_so_and_needs_no_name_to_be_read(tmp_path):
+    wanted = Plan("core", (Group(LONG, EARTH, {"amplitude": [1.0], "time": [1.0]}),), ("pendulum",))
+    build(wanted, tmp_path / "x.h5")
+    found = reference.load(tmp_path / "x.h5")
+    assert (found.families, found.attrs["command"][-17:]) == (("pendulum",), "--family pendulum")
+    with pytest.raises(ValueError, match="a family of the plan is called 'pendulm'; MODULE:NAME is accepted"):
+        build(replace(wanted, families=("pendulm",)), tmp_path / "y.h5")
 
 
 def test_groups_that_cannot_stand_in_one_file_are_refused():
