@@ -18,6 +18,8 @@ if TYPE_CHECKING:
     from reference.dataset.plan import Plan
 
 FORMATS = ("text", "json")
+GIVEN = "given_"
+"""Before the names of a family's inputs, which are its own to choose."""
 
 
 def command(arguments: Sequence[str] | None = None) -> int:
@@ -101,6 +103,7 @@ def _add_at(commands: argparse._SubParsersAction[Parser], words: Sequence[str]) 
             default = "" if asked.default is None else f" (default: {asked.default})"
             parser.add_argument(
                 f"--{asked.name}",
+                dest=GIVEN + asked.name,
                 required=asked.default is None and not asked.optional,
                 default=asked.default,
                 metavar=METAVARS[asked.kind],
@@ -118,7 +121,7 @@ def _at(asked: argparse.Namespace) -> int:
 
     family = asked.known_as
     digits = at.digits_count(asked.digits)
-    given = {wanted: getattr(asked, wanted.name) for wanted in family.inputs}
+    given = {wanted: getattr(asked, GIVEN + wanted.name) for wanted in family.inputs}
     inputs = {
         wanted.name: at.read(wanted, text, as_written=asked.exact) for wanted, text in given.items() if text is not None
     }

@@ -26,6 +26,7 @@ from reference.dataset.errors import DatasetError
 from reference.dataset.grids import plan_from
 from reference.dataset.plan import Plan
 from reference.dataset.verify import verify
+from reference.family import Input
 from reference.layout import Coordinate, Group
 from reference.problem import Problem, SeparableProblem, UndeclaredError
 from reference.problems.families import FAMILIES
@@ -120,6 +121,22 @@ def test_what_is_not_there_is_one_sentence(capsys, tmp_path, monkeypatch, argume
     monkeypatch.chdir(tmp_path)
     assert words in refused(capsys, *arguments)
     assert not list(tmp_path.iterdir())
+
+
+def test_its_inputs_may_have_any_name_but_that_of_an_option(capsys, monkeypatch):
+    def renamed(name):
+        inputs = (Input(name, "m", "displacement"), *OSCILLATOR.inputs[1:])
+        comparison = replace(OSCILLATOR.comparison, varied=name)
+        problem = lambda **given: Oscillator(given[name])  # noqa: E731
+        return replace(OSCILLATOR, inputs=inputs, comparison=comparison, problem=problem)
+
+    for name in ("run", "command", "digits"):
+        monkeypatch.setattr(oscillator, f"NAMED_{name}", renamed(name), raising=False)
+    for name in ("run", "command"):
+        assert main(["at", f"oscillator:NAMED_{name}", f"--{name}", "3", "--t", "0"]) == 0
+        assert "  x = 3.0" in capsys.readouterr().out
+    words = "--digits is an option of its own; an input of another name is accepted"
+    assert words in refused(capsys, "at", "oscillator:NAMED_digits", "--digits", "3", "--t", "0")
 
 
 def test_every_limb_of_its_dataset_is_the_one_correct_rounding(own):
