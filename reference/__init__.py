@@ -9,6 +9,7 @@ from reference.version import __version__
 
 if TYPE_CHECKING:
     import os
+    from collections.abc import Sequence
 
     from reference.certified import Certified
     from reference.dataset.reader import Dataset
@@ -67,15 +68,20 @@ def __getattr__(name: str) -> Any:
     raise AttributeError(f"module 'reference' has no attribute {name!r}")
 
 
-def load(path: str | os.PathLike[str] | None = None) -> Dataset:
+def load(path: str | os.PathLike[str] | None = None, families: Sequence[Family | str] = ()) -> Dataset:
     """Check a dataset and return it; without a path, the core dataset that ships with the package.
+
+    A file with groups of families that are not ours is read with these, each a Family, or its name as MODULE:NAME or
+    FILE.py:NAME.
 
     ``load()["pendulum/libration/period"]`` has ``value`` (float64), ``tail`` (its next two limbs) and ``units``.
 
     Raises:
         FileNotFoundError: there is no such file; the message says how to build it.
         DatasetError: a ValueError: the file is truncated, altered, of another schema, or no dataset.
+        ValueError, ImportError: there is no such family, or its module cannot be imported.
+        TypeError: ``path`` is no path, or ``families`` hold something else.
     """
     from reference.dataset.reader import load as load_checked
 
-    return load_checked(path)
+    return load_checked(path, families)

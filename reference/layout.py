@@ -6,10 +6,12 @@ on its coordinates; a block is a stretch of one of its rows.
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 from reference.arithmetic.exact import exact
+from reference.names import each_once, short
 from reference.once import cached_property
 
 if TYPE_CHECKING:
@@ -24,6 +26,7 @@ __all__ = ["BLOCK_LENGTH", "Block", "Component", "Coordinate", "Group", "Layout"
 
 BLOCK_LENGTH = 2048
 """Times in one block: the unit of work, of resuming and of storage, and so the bound on memory."""
+PATH = re.compile(r"(/[A-Za-z][A-Za-z0-9_-]*)+")
 
 
 def parts(numbers: Iterable[int], whole: int) -> list[float]:
@@ -84,6 +87,9 @@ class Layout:
         statement: the problem in one line: its equation and its start.
         difficulty: how hard it is on an integrator, "lower", "average" or "higher", and why.
         index: labels 0, 1, 2, ... of instances that are in no order by any one of their inputs, as points in a plane.
+
+    Raises:
+        ValueError: the path or a name cannot stand in a file, a name is there twice, or a row has no coordinate.
     """
 
     path: str
@@ -97,6 +103,15 @@ class Layout:
     statement: str = ""
     difficulty: str = ""
     index: Coordinate | None = None
+
+    def __post_init__(self) -> None:
+        if not PATH.fullmatch(self.path):
+            raise ValueError(f"the group's path is '{short(self.path)}'; one such as /pendulum/libration is accepted.")
+        for row in self.rows:
+            if row.over not in {"once", *self.over}:
+                raise ValueError(f"{self.path} has the row {row.name} over '{row.over}', and no coordinate for that.")
+        values = [name for row in self.rows for one in row.quantities for name in (one.name, f"{one.name}_tail")]
+        each_once(self.path, [*(one.name for one in (*self.coordinates, *self.parameters)), *values])
 
     @property
     def first(self) -> tuple[Coordinate, ...]:

@@ -5,7 +5,8 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, fields
 from fractions import Fraction
-from typing import TYPE_CHECKING, Any, ClassVar
+from functools import wraps
+from typing import TYPE_CHECKING, Any, ClassVar, TypeVar
 
 from reference.arithmetic.dual import Dual, DualArithmetic
 from reference.arithmetic.exact import exact_array, positive
@@ -29,7 +30,7 @@ if TYPE_CHECKING:
     from reference.row_domains import Domain
     from reference.state_bounds import StateBounds
 
-__all__ = ["APART", "HamiltonianProblem", "Problem", "SeparableProblem"]
+__all__ = ["APART", "HamiltonianProblem", "Problem", "SeparableProblem", "UndeclaredError"]
 
 TAYLOR_BITS = 1024
 """The Taylor route serves what needs at most this working precision."""
@@ -41,26 +42,72 @@ ROUTE_BITS = 8192
 """No route but the enclosure serves what needs more working precision than this."""
 
 
+class UndeclaredError(NotImplementedError, AttributeError):
+    """Something is asked of a problem that it does not declare; the sentence names both."""
+
+    @classmethod
+    def of(cls, problem: type, lacking: str, words: str) -> UndeclaredError:
+        """The error of a class of problems that lacks what has this name, and what that is, in words."""
+        name = next((vars(one)["name"] for one in problem.__mro__ if "name" in vars(one)), None)
+        told = f", the problem '{name}'," if isinstance(name, str) else ""
+        return cls(f"{problem.__name__}{told} does not declare '{lacking}'{': ' * bool(words)}{words}.")
+
+
+class Required:
+    """In the place of a class variable without which a problem is none; it says in words what that is."""
+
+    def __init__(self, words: str) -> None:
+        self._words, self._name = words, ""
+
+    def __set_name__(self, owner: type, name: str) -> None:
+        self._name = name
+
+    def __get__(self, problem: Any, owner: type) -> Any:
+        raise UndeclaredError.of(owner, self._name, self._words)
+
+
+def required(words: str) -> Any:
+    """A class variable that each problem declares."""
+    return Required(words)
+
+
+Method = TypeVar("Method", bound="Callable[..., Any]")
+
+
+def declared(method: Method) -> Method:
+    """A method that each problem declares of which it is asked: this one says so, by its name and its first line."""
+
+    @wraps(method)
+    def lacking(problem: Any, *_arguments: Any, **_named: Any) -> Any:
+        words = (method.__doc__ or "").partition("\n")[0].rstrip(".").replace("``", "")
+        of = problem if isinstance(problem, type) else type(problem)
+        raise UndeclaredError.of(of, method.__name__, words[:1].lower() + words[1:])
+
+    return lacking  # type: ignore[return-value]
+
+
 @dataclass(frozen=True)
 class Problem:
     """A system of ordinary differential equations with exact parameters and a proven solution."""
 
-    name: ClassVar[str]
-    rows: ClassVar[tuple[Row, ...]]
-    space: ClassVar[StateSpace]
-    invariants: ClassVar[tuple[Invariant, ...]]
-    trial: ClassVar[Trial]
+    name: ClassVar[str] = required("what it is called")
+    rows: ClassVar[tuple[Row, ...]] = required("the rows of values that can be asked of it")
+    space: ClassVar[StateSpace] = required("how its state is read")
+    invariants: ClassVar[tuple[Invariant, ...]] = required("what every exact motion conserves, () where it is nothing")
+    trial: ClassVar[Trial] = required("where a compiled step is tried")
     form: ClassVar[Form | None] = None
     """Which form of its family's equations this is; None where there is one."""
     max_bits: ClassVar[int] = MAX_BITS
     """Working precision at which a proof is given up: lower where a value takes an integral."""
 
     @property
+    @declared
     def parameters(self) -> dict[str, Fraction]:
         """The exact parameters by name."""
         raise NotImplementedError
 
     @property
+    @declared
     def start(self) -> tuple[Fraction, ...]:
         """The exact initial state."""
         raise NotImplementedError
@@ -74,10 +121,11 @@ class Problem:
     def equation(self) -> str:
         """The equation of motion in one line, with its start."""
         if self.form is None:
-            raise NotImplementedError
+            raise UndeclaredError.of(type(self), "equation", "the equation of motion in one line, with its start")
         return self.form.equation
 
     @property
+    @declared
     def inputs(self) -> dict[str, tuple[Any, str]]:
         """What tells the problem from others of its family: numbers or names, and their units, by name."""
         raise NotImplementedError
@@ -90,10 +138,12 @@ class Problem:
     autonomous: ClassVar[bool] = True
     """Whether the equation is without the time."""
 
+    @declared
     def derivative(self, m: Arithmetic, t: Any, y: Sequence[Any], p: dict[str, Any]) -> tuple[Any, ...]:
         """dy/dt as a function of the time, the state and the parameters, in any arithmetic."""
         raise NotImplementedError
 
+    @declared
     def invariant(self, m: Arithmetic, y: Sequence[Any], p: dict[str, Any]) -> Any:
         """The first of the invariants, in any arithmetic; for an energy with a rest, what it is above that.
 
@@ -101,6 +151,7 @@ class Problem:
         """
         raise NotImplementedError
 
+    @declared
     def kinetic(self, m: Arithmetic, y: Sequence[Any], p: dict[str, Any]) -> Any:
         """The kinetic energy, by which the drift of an invariant is told that may be zero."""
         raise NotImplementedError
@@ -150,10 +201,12 @@ class Problem:
         del until
         return None
 
+    @declared
     def event(self, m: Arithmetic, y: Sequence[Any]) -> Any:
         """Zero at the events of ``passages``, in any arithmetic."""
         raise NotImplementedError
 
+    @declared
     def rate(self) -> float:
         """How fast neighbouring solutions turn or part, in 1/s, to choose the work of implicit methods and steps.
 
@@ -176,6 +229,7 @@ class Problem:
             found += np.abs(np.linalg.eigvals(np.array(slopes, dtype=float))).tolist()
         return max(found)
 
+    @declared
     def neighbour(self, rounding: Callable[[Fraction], Fraction], epsilon: Fraction) -> Problem:
         """The same problem from a start close by, but by many of a format's roundings.
 
@@ -192,6 +246,7 @@ class Problem:
                 return type(self)(**given)
         raise ValueError(f"{self!r} has no input to be moved; a problem that declares its neighbour is accepted.")
 
+    @declared
     def closed_form(self, m: Any) -> ClosedForm:
         """The solution in one arithmetic with elliptic functions."""
         raise NotImplementedError
@@ -205,6 +260,7 @@ class Problem:
         """The solution by mpmath at its working precision, built in it."""
         return self.closed_form(MPMATH)
 
+    @declared
     def taylor_form(self, bits: int) -> Solution:
         """The solution by heyoka's Taylor method in MPFR arithmetic of ``bits`` bits."""
         raise NotImplementedError
@@ -214,6 +270,7 @@ class Problem:
         del row, arguments
         return True
 
+    @declared
     def exact_row(self, row: str, argument: Any) -> tuple[Fraction | None, ...] | None:
         """The values of a row that are exactly rational, which no ball could decide; None for those that are not.
 
@@ -221,6 +278,7 @@ class Problem:
         """
         return self.start if row == "state" and argument == 0 else None
 
+    @declared
     def working_bits(self, arguments: Sequence[Any]) -> int:
         """Bits that the closed form is expected to lose at these arguments; only speed depends on it.
 
@@ -351,13 +409,15 @@ class SeparableProblem(Problem):
         found = self.velocity(NUMPY, list(map(float, trial)), {n: float(v) for n, v in self.parameters.items()})
         return self.autonomous and list(found) == list(map(float, trial))
 
-    @staticmethod
-    def velocity(m: Arithmetic, momenta: Sequence[Any], p: dict[str, Any]) -> tuple[Any, ...]:
+    @classmethod
+    @declared
+    def velocity(cls, m: Arithmetic, momenta: Sequence[Any], p: dict[str, Any]) -> tuple[Any, ...]:
         """q' as a function of the momenta and the parameters."""
         raise NotImplementedError
 
-    @staticmethod
-    def force(m: Arithmetic, t: Any, positions: Sequence[Any], p: dict[str, Any]) -> tuple[Any, ...]:
+    @classmethod
+    @declared
+    def force(cls, m: Arithmetic, t: Any, positions: Sequence[Any], p: dict[str, Any]) -> tuple[Any, ...]:
         """p' as a function of the time, the positions and the parameters."""
         raise NotImplementedError
 
@@ -376,9 +436,9 @@ class HamiltonianProblem(Problem):
     and drifts; whether it does is seen at its slopes.
     """
 
+    @declared
     def hamiltonian(self, m: Arithmetic, t: Any, q: Sequence[Any], p: Sequence[Any], c: dict[str, Any]) -> Any:
         """H as a function of the time, the positions, their momenta and the parameters, in any arithmetic."""
-        raise NotImplementedError
 
     def _slopes(self, m: Any, t: Any, q: Sequence[Any], p: Sequence[Any], c: dict[str, Any]) -> list[Any]:
         """dH/dq, then dH/dp."""

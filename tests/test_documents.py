@@ -45,9 +45,11 @@ def subcommands(package: str) -> set[str]:
 
 
 def _parser(words: list[str]) -> argparse.ArgumentParser:
-    if words[0] == "reference":
-        return import_module("reference.__main__")._parser()
-    return import_module("compare.arguments").parser_for([*words[1:], "pendulum"])
+    """The parser that a command line comes to, by its package and the words after it."""
+    package, *rest = words
+    if package == "reference":
+        return import_module("reference.__main__")._parser(rest)
+    return import_module("compare.arguments").parser_for([*rest, "pendulum"])
 
 
 def _choices(parser: argparse.ArgumentParser) -> dict[str, argparse.ArgumentParser]:

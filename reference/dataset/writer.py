@@ -154,11 +154,11 @@ class Writer:
         """Add attributes to a group or dataset; a text too long for an attribute is left out."""
         _describe(self._file[path], attributes)
 
-    def finish(self, version: str, profile: str, provenance: Mapping[str, str]) -> str:
+    def finish(self, version: str, plan: Plan, provenance: Mapping[str, str]) -> str:
         """Add the root's attributes, where it all came from, and the fingerprint, which is returned."""
         _describe(self._file.create_group(PROVENANCE), provenance)
         found = fingerprint(self._file, signed_zeros=NEWEST.signed_zeros)
-        described = root_attributes(NEWEST, version, profile, provenance.get("date", ""))
+        described = root_attributes(NEWEST, version, plan.profile, provenance.get("date", ""), plan.families)
         _describe(self._file, {**described, "fingerprint": found})
         return found
 

@@ -240,7 +240,7 @@ def test_cite_gives_version_and_fingerprint(capsys, tiny):
 
 
 def test_build_writes_where_it_is_told(capsys, tmp_path, monkeypatch):
-    monkeypatch.setattr(catalogue, "plan", lambda _profile: Plan("core", (Group(groups.LONG, groups.EARTH, GRID),)))
+    monkeypatch.setattr(catalogue, "plan", lambda *_: Plan("core", (Group(groups.LONG, groups.EARTH, GRID),)))
     out = tmp_path / "x.h5"
     assert called("build", "--out", out, "--jobs", 1) == 0
     assert f"fingerprint sha256:{reference.load(out).fingerprint}" in capsys.readouterr().out
