@@ -206,7 +206,6 @@ class Problem:
         """Zero at the events of ``passages``, in any arithmetic."""
         raise NotImplementedError
 
-    @declared
     def rate(self) -> float:
         """How fast neighbouring solutions turn or part, in 1/s, to choose the work of implicit methods and steps.
 
@@ -229,7 +228,6 @@ class Problem:
             found += np.abs(np.linalg.eigvals(np.array(slopes, dtype=float))).tolist()
         return max(found)
 
-    @declared
     def neighbour(self, rounding: Callable[[Fraction], Fraction], epsilon: Fraction) -> Problem:
         """The same problem from a start close by, but by many of a format's roundings.
 
@@ -270,7 +268,6 @@ class Problem:
         del row, arguments
         return True
 
-    @declared
     def exact_row(self, row: str, argument: Any) -> tuple[Fraction | None, ...] | None:
         """The values of a row that are exactly rational, which no ball could decide; None for those that are not.
 
@@ -278,7 +275,6 @@ class Problem:
         """
         return self.start if row == "state" and argument == 0 else None
 
-    @declared
     def working_bits(self, arguments: Sequence[Any]) -> int:
         """Bits that the closed form is expected to lose at these arguments; only speed depends on it.
 

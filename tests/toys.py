@@ -231,7 +231,14 @@ ELLIPSES = Layout(
     "(x, y)'' = -(x, y)/r^3",
     "average",
 )
-ANGLE = Coordinate("angle", "rad", "angle at the start")
+ANGLE = Coordinate("initial_angle", "rad", "angle at the start")
+
+
+def released(initial_angle: float) -> Forced:
+    """The oscillator from rest at an angle."""
+    return Forced(initial_angle)
+
+
 SECONDS = Coordinate("time", "s", "time since the start")
 BEATS = Layout(
     "/toy/forced",
@@ -240,7 +247,7 @@ BEATS = Layout(
     {"time": SECONDS},
     (),
     Forced.rows,
-    Forced,
+    released,
     "any textbook of mechanics",
     "angle'' = -angle + 2 cos(5 t/8)",
     "lower",
@@ -252,7 +259,7 @@ def ellipses() -> tuple[Group, ...]:
 
 
 def beats() -> tuple[Group, ...]:
-    return (Group(BEATS, {}, {"angle": (0.5, 1.0), "time": (0.5, 1.0, 7.25)}),)
+    return (Group(BEATS, {}, {"initial_angle": (0.5, 1.0), "time": (0.5, 1.0, 7.25)}),)
 
 
 KEPLER = Family(

@@ -22,6 +22,11 @@ from compare.measure.truth import Course
 from compare.report.run import plan, run
 from compare.scored import score_all
 from compare.study import study
+from reference import load
+from reference.__main__ import main as reference_main
+from reference.dataset.build import build
+from reference.dataset.catalogue import plan as dataset_plan
+from reference.dataset.verify import verify
 
 TOYS = Path(__file__).parents[1] / "toys.py"
 FLOAT64 = precision("float64")
@@ -219,3 +224,28 @@ def test_a_step_whose_path_depends_on_its_values_is_refused() -> None:
 
     with pytest.raises(ValueError, match="hasty raised TypeError on an array of object"):
         compare.error_vs_n(Kepler(), [hasty], n=[64])
+
+
+def test_a_dataset_of_both_is_built_and_verified(tmp_path: Path) -> None:
+    families = [f"{TOYS}:KEPLER", f"{TOYS}:FORCED"]
+    out = tmp_path / "toys.h5"
+    build(dataset_plan("core", families=families), out)
+    assert all(proof.holds for proof in verify(out, families=families))
+    found = load(out, families=families)
+    for i, v in enumerate((1.75, 2.0)):
+        for k, t in enumerate((0.5, 1.0, 7.25)):
+            x, y = independent_kepler(v, t)
+            for name, other in (("x", x), ("y", y)):
+                stored = found[f"toy/kepler/{name}"]
+                limbs = [stored.value[i, k], *stored.tail[i, k]]
+                assert abs(sum(map(Fraction, map(float, limbs))) - other) < Fraction(1, 10**45)
+
+
+def test_values_at_the_command_line(capsys: pytest.CaptureFixture[str]) -> None:
+    assert (
+        reference_main(["at", f"{TOYS}:KEPLER", "--v", "2", "--t", "7.25", "--digits", "30", "--format", "json"]) == 0
+    )
+    x, y = independent_kepler(2.0, 7.25)
+    found = json.loads(capsys.readouterr().out)
+    assert abs(Fraction(found["x"]) - x) < Fraction(1, 10**29)
+    assert abs(Fraction(found["y"]) - y) < Fraction(1, 10**29)

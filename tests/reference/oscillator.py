@@ -81,7 +81,7 @@ class Oscillator(SeparableProblem):
         return {"x0": (as_number(self.x0), "m")}
 
     @staticmethod
-    def velocity(m: Any, t: Any, momenta: Sequence[Any], p: dict[str, Any]) -> tuple[Any, ...]:  # noqa: ARG004
+    def velocity(m: Any, momenta: Sequence[Any], p: dict[str, Any]) -> tuple[Any, ...]:  # noqa: ARG004
         return (momenta[0],)
 
     @staticmethod
