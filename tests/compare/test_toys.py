@@ -242,9 +242,8 @@ def test_a_dataset_of_both_is_built_and_verified(tmp_path: Path) -> None:
 
 
 def test_values_at_the_command_line(capsys: pytest.CaptureFixture[str]) -> None:
-    assert (
-        reference_main(["at", f"{TOYS}:KEPLER", "--v", "2", "--t", "7.25", "--digits", "30", "--format", "json"]) == 0
-    )
+    words = ["--v", "2", "--t", "7.25", "--digits", "30", "--exact", "--format", "json"]
+    assert reference_main(["at", f"{TOYS}:KEPLER", *words]) == 0
     x, y = independent_kepler(2.0, 7.25)
     found = json.loads(capsys.readouterr().out)
     assert abs(Fraction(found["x"]) - x) < Fraction(1, 10**29)
