@@ -208,7 +208,6 @@ class Problem:
         """Zero at the events of ``passages``, in any arithmetic."""
         raise NotImplementedError
 
-    @declared
     def rate(self) -> float:
         """How fast neighbouring solutions turn or part, in 1/s, to choose the work of implicit methods and steps.
 
@@ -231,7 +230,6 @@ class Problem:
             found += np.abs(np.linalg.eigvals(np.array(slopes, dtype=float))).tolist()
         return max(found)
 
-    @declared
     def neighbour(self, rounding: Callable[[Fraction], Fraction], epsilon: Fraction) -> Problem:
         """The same problem from a start close by, but by many of a format's roundings.
 
@@ -262,7 +260,6 @@ class Problem:
         """The solution by mpmath at its working precision, built in it."""
         return self.closed_form(MPMATH)
 
-    @declared
     def taylor_form(self, bits: int) -> Solution:
         """The solution by heyoka's Taylor method in MPFR arithmetic of ``bits`` bits, as ``by_flow`` declares it."""
         return taylor.taylor_route(self, bits)
@@ -275,7 +272,6 @@ class Problem:
         """
         return taylor.reaches(self, row, arguments)
 
-    @declared
     def exact_row(self, row: str, argument: Any) -> tuple[Fraction | None, ...] | None:
         """The values of a row that are exactly rational, which no ball could decide; None for those that are not.
 
@@ -283,7 +279,6 @@ class Problem:
         """
         return self.start if row == "state" and argument == 0 else None
 
-    @declared
     def working_bits(self, arguments: Sequence[Any]) -> int:
         """Bits that the closed form is expected to lose at these arguments; only speed depends on it.
 
