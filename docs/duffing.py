@@ -14,6 +14,7 @@ from reference import Family, HamiltonianProblem, StateSpace
 from reference.arithmetic.exact import exact
 from reference.declaration import ENERGY_ABOVE_REST, ClosedForm, Invariant, Quantity, Row, Trial
 from reference.family import Comparison, Input, Reported
+from reference.routes.taylor import Along, Period
 from reference.row_domains import ONCE, TIME
 
 STATE = Row(
@@ -40,6 +41,7 @@ class Duffing(HamiltonianProblem):
     )
     invariants: ClassVar[tuple[Invariant, ...]] = (ENERGY_ABOVE_REST,)
     trial: ClassVar[Trial] = Trial(states=((-2, 2), (-2, 2)), parameters={}, step=(0.01, 0.1))
+    by_flow: ClassVar[dict[str, Any]] = {"state": Along(), "period": Period(lambda _m, y: y[0], per_period=2)}
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "a", exact(self.a, "a"))

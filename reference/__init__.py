@@ -16,11 +16,14 @@ if TYPE_CHECKING:
     from reference.declaration import StateSpace
     from reference.family import Family
     from reference.problem import HamiltonianProblem, Problem, SeparableProblem
-    from reference.problems.cycloid import Cycloid, CycloidalPendulum, CycloidArc, Tautochrone
-    from reference.problems.descent import Descent
-    from reference.problems.pendulum import LinearPendulum, Pendulum
-    from reference.problems.polar import PolarBrachistochrone
-    from reference.problems.tunnel import Tunnel
+    from reference.problems.cycloid.arc import CycloidArc
+    from reference.problems.cycloid.problem import Cycloid
+    from reference.problems.cycloid.tautochrone import CycloidalPendulum, Tautochrone
+    from reference.problems.descent.problem import Descent
+    from reference.problems.pendulum.linear import LinearPendulum
+    from reference.problems.pendulum.problem import Pendulum
+    from reference.problems.polar.problem import PolarBrachistochrone
+    from reference.problems.tunnel.problem import Tunnel
 
 __all__ = [
     "Certified",
@@ -44,20 +47,20 @@ __all__ = [
 
 _HOMES = {
     "Certified": "reference.certified",
-    "Cycloid": "reference.problems.cycloid",
-    "CycloidArc": "reference.problems.cycloid",
-    "CycloidalPendulum": "reference.problems.cycloid",
-    "Descent": "reference.problems.descent",
+    "Cycloid": "reference.problems.cycloid.problem",
+    "CycloidArc": "reference.problems.cycloid.arc",
+    "CycloidalPendulum": "reference.problems.cycloid.tautochrone",
+    "Descent": "reference.problems.descent.problem",
     "Family": "reference.family",
     "HamiltonianProblem": "reference.problem",
-    "LinearPendulum": "reference.problems.pendulum",
-    "Pendulum": "reference.problems.pendulum",
-    "PolarBrachistochrone": "reference.problems.polar",
+    "LinearPendulum": "reference.problems.pendulum.linear",
+    "Pendulum": "reference.problems.pendulum.problem",
+    "PolarBrachistochrone": "reference.problems.polar.problem",
     "Problem": "reference.problem",
     "SeparableProblem": "reference.problem",
     "StateSpace": "reference.declaration",
-    "Tautochrone": "reference.problems.cycloid",
-    "Tunnel": "reference.problems.tunnel",
+    "Tautochrone": "reference.problems.cycloid.tautochrone",
+    "Tunnel": "reference.problems.tunnel.problem",
 }
 
 

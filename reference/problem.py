@@ -16,10 +16,10 @@ from reference.arithmetic.precision import mp
 from reference.certified import Certified
 from reference.names import unknown
 from reference.once import cached_property
-from reference.routes import enclosure, quadrature
+from reference.routes import enclosure, quadrature, taylor
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
+    from collections.abc import Callable, Mapping, Sequence
 
     import numpy as np
 
@@ -97,6 +97,8 @@ class Problem:
     trial: ClassVar[Trial] = required("where a compiled step is tried")
     form: ClassVar[Form | None] = None
     """Which form of its family's equations this is; None where there is one."""
+    by_flow: ClassVar[Mapping[str, taylor.Reading]] = {"state": taylor.Along()}
+    """How the Taylor route reads each row of a flow; a row that it cannot give says why in its ``lacks``."""
     max_bits: ClassVar[int] = MAX_BITS
     """Working precision at which a proof is given up: lower where a value takes an integral."""
 
@@ -258,15 +260,17 @@ class Problem:
         """The solution by mpmath at its working precision, built in it."""
         return self.closed_form(MPMATH)
 
-    @declared
     def taylor_form(self, bits: int) -> Solution:
-        """The solution by heyoka's Taylor method in MPFR arithmetic of ``bits`` bits."""
-        raise NotImplementedError
+        """The solution by heyoka's Taylor method in MPFR arithmetic of ``bits`` bits, as ``by_flow`` declares it."""
+        return taylor.taylor_route(self, bits)
 
     def within_taylor(self, row: str, arguments: Sequence[Any]) -> bool:
-        """Whether the Taylor route reaches all of these arguments in bounded work."""
-        del row, arguments
-        return True
+        """Whether the Taylor route reaches all of these arguments in bounded work.
+
+        Here of a row along the flow of the equation itself or of its events: no time is negative, and none is so late
+        that the flow takes more than ``taylor.STEPS`` steps.
+        """
+        return taylor.reaches(self, row, arguments)
 
     def exact_row(self, row: str, argument: Any) -> tuple[Fraction | None, ...] | None:
         """The values of a row that are exactly rational, which no ball could decide; None for those that are not.

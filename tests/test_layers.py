@@ -7,6 +7,7 @@ import importlib
 import inspect
 import subprocess
 import sys
+from graphlib import CycleError, TopologicalSorter
 from pathlib import Path
 
 import pytest
@@ -151,6 +152,16 @@ def test_a_room_imports_only_of_those_before_it(path):
     room = room_of(name.removesuffix(".__init__"))
     for other in {room_of(found) for found in imports(path) if found.split(".")[0] in PACKAGES} - {room}:
         assert ROOMS[other] < ROOMS[room], f"{path} imports {other}"
+
+
+def test_no_modules_import_each_other_in_a_circle():
+    """Neither for annotations, nor within functions."""
+    known = set(MODULES)
+    graph = {module_name(path): (imports(path) & known) - {module_name(path)} for path in SOURCES}
+    try:
+        tuple(TopologicalSorter(graph).static_order())
+    except CycleError as error:
+        pytest.fail(" imports ".join(reversed(error.args[1])))
 
 
 @pytest.mark.parametrize("package", PACKAGES)

@@ -17,6 +17,7 @@ from reference.declaration import ClosedForm, Invariant, Quantity, Row, StateSpa
 from reference.family import Comparison, Family, Input, Reported
 from reference.layout import Coordinate, Group, Layout
 from reference.problem import HamiltonianProblem, SeparableProblem
+from reference.routes.taylor import Along, Period
 from reference.row_domains import ONCE, TIME
 
 if TYPE_CHECKING:
@@ -50,6 +51,7 @@ class Kepler(HamiltonianProblem):
         Invariant("angular momentum", ("Angular momentum", "(L - L0)/L0"), "start", "angular_momentum"),
     )
     trial: ClassVar[Trial] = Trial(states=((0.5, 1.0), (0.5, 1.0), (-1, 1), (-1, 1)), parameters={}, step=(0.001, 0.01))
+    by_flow: ClassVar[dict[str, Any]] = {"state": Along(), "period": Period(lambda _m, y: y[1], per_period=2)}
     rows: ClassVar[tuple[Row, ...]] = (
         Row(
             "state",

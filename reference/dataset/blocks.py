@@ -1,6 +1,6 @@
 """One block of work: the proven limbs of a stretch of a row, and how far the other routes agree with them.
 
-Finished blocks of an unfinished build, in a folder beside the output, so that a long build can go on.
+The finished blocks of a build are kept in a folder beside the output until it is whole, so that a long one can go on.
 """
 
 from __future__ import annotations

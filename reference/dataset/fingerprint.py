@@ -8,8 +8,6 @@ parameters and each dataset, ``/provenance`` left out:
   little-endian bytes of its elements in C order.
 
 JSON is ASCII with sorted keys and no spaces; a line ends in a line feed.
-
-What a file says, read in a defined order: its objects, their dimensions, and the fingerprint of it all.
 """
 
 from __future__ import annotations

@@ -1,10 +1,9 @@
 """Writing the file: every dataset chunked and checksummed, filled block by block, its bytes the same every time.
 
-The file under HDF5 while it is written: a failed write must reach the caller, and HDF5 must not notice.
-
-HDF5 keeps a file open, and crashes the process at its end, when what it has cached cannot be written.  So a write
-that fails, as on a full disk, is kept in memory, where reads find it; the first error is raised after the file is
-closed.  The writer stops at the first error, so only what HDF5 had cached is ever kept.
+A failed write must reach the caller, and HDF5 must not notice: it keeps a file open, and crashes the process at its
+end, when what it has cached cannot be written.  So a write that fails, as on a full disk, is kept in memory, where
+reads find it; the first error is raised after the file is closed.  The writer stops at the first error, so only what
+HDF5 had cached is ever kept.
 """
 
 from __future__ import annotations

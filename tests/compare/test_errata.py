@@ -32,8 +32,8 @@ from compare.sources.errata.report_series import (
 from compare.sources.errata.sound import SOUND
 from compare.sources.errata.spelled import spelled
 from reference.arithmetic.precision import mp
-from reference.problems.descent import Descent
-from reference.problems.pendulum import Pendulum
+from reference.problems.descent.problem import Descent
+from reference.problems.pendulum.problem import Pendulum
 
 ROOT = Path(__file__).parents[2]
 each = pytest.mark.parametrize("erratum", ERRATA, ids=lambda one: f"{one.source[:4]}-{one.place}")

@@ -7,8 +7,8 @@ from typing import Any
 
 from reference.family import Comparison, End, Family, Input, Marched, Reported, positive_end
 from reference.layout import Coordinate, Group, Layout, parts
-from reference.problems.descent import RACE as CURVES
-from reference.problems.descent import Descent
+from reference.problems.descent.curves import RACE as CURVES
+from reference.problems.descent.problem import Descent
 
 __all__ = ["FAMILY", "LAYOUTS", "RACE", "core", "full", "last_tick"]
 

@@ -7,7 +7,9 @@ from typing import TYPE_CHECKING
 
 from reference.family import Comparison, Family, Input, Reported
 from reference.layout import Coordinate, Group, Layout, parts
-from reference.problems.pendulum import LinearPendulum, Pendulum, PendulumSeries
+from reference.problems.pendulum.approximations import PendulumSeries
+from reference.problems.pendulum.linear import LinearPendulum
+from reference.problems.pendulum.problem import Pendulum
 from reference.problems.pendulum.quantities import SERVED
 
 if TYPE_CHECKING:

@@ -1,9 +1,8 @@
-"""Gauss's rule over panels no wider than the integrands are smooth, and the time table of an extremal in floats.
+"""Quadrature rules for an extremal: Gauss's over panels as wide as the integrand is smooth, and the trapezoidal rule.
 
-Integrals of periodic functions by the trapezoidal rule, whose error falls geometrically.
-
-For f of period 2 pi, analytic and |f| <= M in the strip |Im x| <= a, the rule with n points is within
-4 pi M/(exp(a n) - 1) of the integral (L. N. Trefethen and J. A. C. Weideman, SIAM Review 56, 385, 2014, theorem 3.2).
+The latter's error falls geometrically for a periodic function: for f of period 2 pi, analytic and |f| <= M in the strip
+|Im x| <= a, the rule with n points is within 4 pi M/(exp(a n) - 1) of the integral (L. N. Trefethen and J. A. C.
+Weideman, SIAM Review 56, 385, 2014, theorem 3.2).
 """
 
 from __future__ import annotations
