@@ -151,7 +151,7 @@ def score_all(
         Course(problem, k, end, fmt, samples) for problem, end in zip(problems, ends, strict=True) for k in counts
     ]
     for course in courses:
-        course.truth, course.neighbour.truth, course.reach  # noqa: B018 - computed once, before processes share it
+        course.truth, course.neighbour.truth, course.conditioning  # noqa: B018 - computed once, before processes share it
     fitting = {method.name: [course for course in courses if fits(method, course.problem)] for method in chosen}
     if not any(fitting.values()):
         raise ValueError(f"none of {', '.join(fitting)} fits {problems[0]!r}; others, such as rk4, are accepted.")

@@ -58,7 +58,7 @@ class Shape:
         most = BLOCK_SIZE * (2 if inline else 1) if fmt.lanes > 1 else WIDE_BLOCK_SIZE
         room = min(most / size, max(balance, SHORTEST_BLOCK))
         steps = SHORT_BLOCK if grain == 1 else grain
-        while steps > room and steps // 2 >= max(method.opening, 1):
+        while steps > room and steps // 2 >= max(method.starting_steps, 1):
             steps //= 2
         brief = fmt.lanes > 1 and work < OPTIMIZED
         return cls(steps, batch, "every" if grain == 1 else "last", iterations, inline, brief)

@@ -61,20 +61,20 @@ class _Pi:
 class BoundSystem:
     """A problem's equation in one arithmetic, its parameters numbers of that arithmetic.
 
-    ``levels`` are the invariants at the start of the march.
+    ``initial`` are the invariants at the start of the march.
 
     Raises:
         ValueError: the equation depends on the time, which stands outside of its state.
     """
 
     def __init__(
-        self, problem: Problem, m: Any, parameters: dict[str, Any], fmt: Precision, levels: Sequence[Any]
+        self, problem: Problem, m: Any, parameters: dict[str, Any], fmt: Precision, initial: Sequence[Any]
     ) -> None:
         if not problem.autonomous:
             raise ValueError(f"{problem!r} depends on the time; compare.march.autonomous makes it a component.")
         self.dimension = len(problem.state_names)
         self.positions = problem.positions
-        self.levels = tuple(levels)
+        self.initial = tuple(initial)
         self._problem: Any = problem
         self._m = m
         self._duals = DualArithmetic(m, self.dimension)
@@ -102,9 +102,9 @@ class BoundSystem:
         return jet(self._m, lambda m, state: self._problem.derivative(m, NO_TIME, state, self._parameters), y, order)
 
     @property
-    def level(self) -> Any:
+    def initial_invariant(self) -> Any:
         """The first invariant at the start."""
-        return self.levels[0]
+        return self.initial[0]
 
     def invariant(self, y: State) -> Any:
         return self.invariants(y)[0]
@@ -145,7 +145,7 @@ class BoundSystem:
 
 
 def plain_system(problem: Problem, fmt: Precision, parameters: np.ndarray) -> BoundSystem:
-    """The equation over NumPy arrays of a format, one lane a column of the parameter rows: h, levels, parameters."""
-    levels, values = parameters[1 : 1 + len(problem.invariants)], parameters[1 + len(problem.invariants) :]
+    """The equation over NumPy arrays of a format, one lane a column of the parameter rows: h, initial, parameters."""
+    initial, values = parameters[1 : 1 + len(problem.invariants)], parameters[1 + len(problem.invariants) :]
     named = dict(zip(problem.parameters, values, strict=True))
-    return BoundSystem(problem, FormatArithmetic(fmt), named, fmt, tuple(levels))
+    return BoundSystem(problem, FormatArithmetic(fmt), named, fmt, tuple(initial))

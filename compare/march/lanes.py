@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from compare.march.precision import Precision
     from reference.problem import Problem
 
-__all__ = ["Lane", "March", "StartInvariant", "drift_scales", "grain_of", "sample_steps", "start_levels"]
+__all__ = ["Lane", "March", "StartInvariant", "drift_scales", "grain_of", "initial_invariants", "sample_steps"]
 
 LONG_BLOCKS = (64, 32, 16)
 LONG_MARCH = 8192
@@ -85,7 +85,7 @@ class StartInvariant:
 
 
 @lru_cache(maxsize=256)
-def start_levels(problem: Problem, fmt: Precision) -> tuple[Any, ...]:
+def initial_invariants(problem: Problem, fmt: Precision) -> tuple[Any, ...]:
     """Each invariant of a problem at its start as a number of a format, kept."""
     return tuple(_rounded(StartInvariant(problem, one.value), fmt) for one in problem.invariants)
 
@@ -93,10 +93,10 @@ def start_levels(problem: Problem, fmt: Precision) -> tuple[Any, ...]:
 @lru_cache(maxsize=256)
 def drift_scales(problem: Problem, fmt: Precision) -> tuple[Any, ...]:
     """What the drift of each invariant is divided by, as a positive number of a format; zero where there is none."""
-    levels = start_levels(problem, fmt)
+    initial = initial_invariants(problem, fmt)
     return tuple(
         abs(level) if one.scale == "start" else abs(_rounded(StartInvariant(problem, one.scale), fmt))
-        for one, level in zip(problem.invariants, levels, strict=True)
+        for one, level in zip(problem.invariants, initial, strict=True)
     )
 
 

@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from compare.march.block_size import INLINE_SINE, Shape
-from compare.march.lanes import Lane, March, StartInvariant, grain_of, sample_steps, start_levels
+from compare.march.lanes import Lane, March, StartInvariant, grain_of, initial_invariants, sample_steps
 from compare.march.trace import carried, compile_block, entry_rows, plain_block
 
 if TYPE_CHECKING:
@@ -199,7 +199,7 @@ class _Group:
         taken = 0
         began = time.perf_counter()
         while lanes.shape[1]:
-            if taken == 0 and self.method.opening:
+            if taken == 0 and self.method.starting_steps:
                 out[:] = self._opening(lanes, parameters)
             else:
                 self.block(lanes, parameters, out)
@@ -228,7 +228,7 @@ class _Group:
         names = list(padded[0].problem.parameters)
         parameters = [
             self.fmt.array(lane.h for lane in padded),
-            *np.array([start_levels(lane.problem, self.fmt) for lane in padded], dtype=self.fmt.type).T,
+            *np.array([initial_invariants(lane.problem, self.fmt) for lane in padded], dtype=self.fmt.type).T,
             *(self.fmt.array(lane.problem.parameters[name] for lane in padded) for name in names),
         ]
         values = np.stack(parameters)
@@ -290,5 +290,5 @@ class _Group:
         if not converged(change, states, self.fmt):
             states, drifts = np.full(states.shape, np.nan), [math.nan] * len(drifts)
         per_step, once = self.method.evaluations(self.iterations)
-        own = max(lane.n - self.method.opening, 0)
+        own = max(lane.n - self.method.starting_steps, 0)
         return March(states, tuple(drifts), per_step * own + once, self.method.jacobians(self.iterations) * own)

@@ -110,16 +110,16 @@ def compile_block(
     remembered = method.memory(dimension, problem.positions)
     y = _variables([*problem.state_names, *(f"memory_{i}" for i in range(remembered))])
     kept = len(problem.invariants)
-    levels = [hy.par[1 + i] for i in range(kept)]
+    initial = [hy.par[1 + i] for i in range(kept)]
     symbols = {name: hy.par[i + 1 + kept] for i, name in enumerate(problem.parameters)}
     arithmetic = (LaneArithmetic if inline_sine else Heyoka)(fmt.number)
-    system = BoundSystem(problem, arithmetic, symbols, fmt, levels)
+    system = BoundSystem(problem, arithmetic, symbols, fmt, initial)
     maxima = _variables((*(f"drift_{i}" for i in range(kept)), "change"))
     every: list[Any] = []
     state, largest = y, maxima
     for _ in range(steps):
         state, changes = method.step(system, state, hy.par[0], iterations)
-        now = zip(system.invariants(state[:dimension]), levels, strict=True) if drift else ()
+        now = zip(system.invariants(state[:dimension]), initial, strict=True) if drift else ()
         off = [_size([value - level]) for value, level in now] if drift else list(maxima[:-1])
         moved = _size(changes) if changes else hy.expression(0.0)
         every += [*state, *off, moved]
@@ -145,13 +145,13 @@ def _expression(value: Any) -> Any:
 def entry_rows(
     method: Method, problem: Problem, fmt: Precision, states: np.ndarray, parameters: np.ndarray
 ) -> np.ndarray:
-    """The start of a march and every step of the method's opening, on NumPy arrays: [opening + 1, rows, lanes].
+    """The start of a march and every step of the method's starting procedure: [starting steps + 1, rows, lanes].
 
     The rows are those of a block's input; the last of them are complete, the others have zeros for a memory.
     """
     system = plain_system(problem, fmt, parameters)
     opened, y = method.start(system, tuple(states), parameters[0])
-    before = [tuple(states), *opened][: method.opening]
+    before = [tuple(states), *opened][: method.starting_steps]
     blank = (fmt.zeros(states.shape[1:]),) * (len(y) - len(states))
     return np.stack([_rows(system, fmt, state, ()) for state in (*((*state, *blank) for state in before), y)])
 
@@ -170,7 +170,7 @@ def plain_block(
     steps: int,
     iterations: int,
 ) -> np.ndarray:
-    """The first steps of a march on NumPy arrays, the method's opening among them: [steps, rows, lanes]."""
+    """The first steps of a march on NumPy arrays, the method's starting procedure among them: [steps, rows, lanes]."""
     system = plain_system(problem, fmt, parameters)
     found = list(entry_rows(method, problem, fmt, states, parameters))
     y: State = tuple(found[-1][: -carried(problem)])
@@ -183,7 +183,7 @@ def plain_block(
 def _rows(system: BoundSystem, fmt: Precision, y: State, changes: State) -> np.ndarray:
     """State, memory, each |invariant - start| and the largest change of one step over all lanes."""
     zero = fmt.zeros(np.shape(y[0]))
-    now = zip(system.invariants(y[: system.dimension]), system.levels, strict=True)
+    now = zip(system.invariants(y[: system.dimension]), system.initial, strict=True)
     off = [np.abs(value - level) + zero for value, level in now]
     moved = np.max(np.abs(np.stack(np.broadcast_arrays(*changes))), axis=0) if changes else zero
     return np.stack([*(component + zero for component in y), *off, moved])
@@ -192,7 +192,7 @@ def _rows(system: BoundSystem, fmt: Precision, y: State, changes: State) -> np.n
 def _trust(block: Block, method: Method, problem: Problem, fmt: Precision, iterations: int) -> None:
     """Hold the compiled block against the plain steps at random points: an ``if`` on a symbol is silently true."""
     states, parameters = _random_points(problem, fmt, block.batch)
-    plain = plain_block(method, problem, fmt, states, parameters, method.opening + block.steps, iterations)
+    plain = plain_block(method, problem, fmt, states, parameters, method.starting_steps + block.steps, iterations)
     entry = entry_rows(method, problem, fmt, states, parameters)[-1]
     out = fmt.zeros((block.out_rows(len(entry)), states.shape[1]))
     block(entry, parameters, out)
@@ -208,7 +208,7 @@ def _trust(block: Block, method: Method, problem: Problem, fmt: Precision, itera
 
 
 def _random_points(problem: Problem, fmt: Precision, batch: int) -> tuple[np.ndarray, np.ndarray]:
-    """Random states, step sizes and parameters within the problem's intervals for a trial, each its own levels."""
+    """Random states, step sizes and parameters within the problem's intervals for a trial, each its own initial."""
     random = np.random.default_rng(20260101)
     lanes_count = batch * -(-CHECK_LANES // batch)
     trial, kept = problem.trial, len(problem.invariants)

@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from compare.march.equation import NO_TIME, BoundSystem, FormatArithmetic
-from compare.march.lanes import StartInvariant, drift_scales, start_levels
+from compare.march.lanes import StartInvariant, drift_scales, initial_invariants
 from compare.march.precision import precision
 from reference.arithmetic.namespaces import NUMPY
 from reference.arithmetic.precision import ctx
@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from compare.march.precision import Precision
     from reference.problem import Problem
 
-__all__ = ["Reach", "reach"]
+__all__ = ["Conditioning", "conditioning"]
 
 FURTHER = 16
 BEFORE = 2.0**-20
@@ -36,14 +36,15 @@ BITS = 256
 
 
 @dataclass(frozen=True)
-class Reach:
+class Conditioning:
     """The size of a motion at some times, and how far it carries roundings to them.
 
     Attributes:
         sizes: the largest absolute value of each component of the state; 1 for one that is always zero.
         units: what the error of each component is measured in: its size, or 1 where errors are left as they are.
         led: how far one rounding leads each component.
-        place_led: the same of the place, in its unit; along a curve also what a rounding of the coordinate makes of it.
+        position_led: the same of the position error, in its unit; along a curve also what a rounding of the coordinate
+            makes of it.
         drift_led: the same of the change of each invariant, over its scale; NaN where that is zero.
         slopes: how fast the place changes with the component that it is a function of, at each time; else zeros.
         bends: how fast those slopes do: steps that begin or end there take slopes that are off.
@@ -53,15 +54,15 @@ class Reach:
     sizes: np.ndarray
     units: np.ndarray
     led: np.ndarray
-    place_led: float
+    position_led: float
     drift_led: np.ndarray
     slopes: np.ndarray
     bends: np.ndarray
     apart: float
 
 
-def reach(problem: Problem, truth: np.ndarray, near: Problem, other: np.ndarray, fmt: Precision) -> Reach:
-    """The reach of a problem, given limbs [samples, state, limbs] of its states and of a neighbour's."""
+def conditioning(problem: Problem, truth: np.ndarray, near: Problem, other: np.ndarray, fmt: Precision) -> Conditioning:
+    """The conditioning of a problem, given limbs [samples, state, limbs] of its states and of a neighbour's."""
     motion, space = _Motion(problem, truth[:, :, 0].T), problem.space
     sizes = np.max(np.abs(motion.state), axis=1)
     sizes = np.where(sizes > 0, sizes, 1.0)
@@ -73,16 +74,18 @@ def reach(problem: Problem, truth: np.ndarray, near: Problem, other: np.ndarray,
     else:
         led = FURTHER * (1 + np.max(np.abs(gap), axis=1) / sizes / (apart or 1.0)) * sizes
     places = space.places(space.positions)
-    place_led, slopes = float(np.max((led / units)[places])), np.zeros(len(truth))
+    position_led, slopes = float(np.max((led / units)[places])), np.zeros(len(truth))
     bends = np.zeros(len(truth))
     if space.along is not None:
         (along,) = space.places([space.along])
         rates, before, shift = motion.rates(), *motion.rates_before(along)
         slopes = np.max([np.abs(rates[i]) / units[i] for i in places], axis=0)
         bends = np.max([np.abs(rates[i] - before[i]) / units[i] for i in places], axis=0) / shift
-        place_led += float(np.max(slopes) * sizes[along] * np.max((sizes / units)[places]))
+        position_led += float(np.max(slopes) * sizes[along] * np.max((sizes / units)[places]))
     epsilon = fmt.epsilon
-    return Reach(sizes, units, epsilon * led, epsilon * place_led, epsilon * motion.drift_led(), slopes, bends, apart)
+    return Conditioning(
+        sizes, units, epsilon * led, epsilon * position_led, epsilon * motion.drift_led(), slopes, bends, apart
+    )
 
 
 def _apart(problem: Problem, near: Problem, sizes: np.ndarray) -> float:
@@ -114,7 +117,9 @@ class _Motion:
         self.problem, self.state = problem, state
         self.parameters = {name: float(value) for name, value in problem.parameters.items()}
         self._scales = drift_scales(problem, fmt)
-        self._system = BoundSystem(problem, FormatArithmetic(fmt), self.parameters, fmt, start_levels(problem, fmt))
+        self._system = BoundSystem(
+            problem, FormatArithmetic(fmt), self.parameters, fmt, initial_invariants(problem, fmt)
+        )
 
     def rates(self) -> tuple[np.ndarray, ...]:
         """The slopes of the components by what they are functions of."""

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from compare.march.equation import BoundSystem
-from compare.march.lanes import Lane, start_levels
+from compare.march.lanes import Lane, initial_invariants
 from compare.march.march import converged, iterations_for, march
 from compare.march.trace import slopes_of
 from compare.measure.records import Defect
@@ -145,7 +145,7 @@ def _form_defect(step: Any, form: Any, run: Run) -> FormDefect:
     fmt, problem = course.fmt, course.problem
     chosen = np.linspace(0, len(course.times) - 1, STATES).round().astype(int)
     states = np.stack([_rounded(course, chosen, i) for i in range(len(problem.state_names))])
-    values = [fmt.number(course.h), *start_levels(problem, fmt), *map(fmt.number, problem.parameters.values())]
+    values = [fmt.number(course.h), *initial_invariants(problem, fmt), *map(fmt.number, problem.parameters.values())]
     parameters = np.repeat(np.array(values, dtype=fmt.type)[:, None], STATES, axis=1)
     near = states * fmt.number(1 + 2 * fmt.exact_epsilon)
     (defects, products), (others, _) = (_changes(step, form, course, parameters, y) for y in (states, near))
@@ -267,5 +267,5 @@ def _gaps(course: Course, state: np.ndarray) -> np.ndarray:
     starts = [fmt.round(-value if i in odd else value) for i, value in enumerate(course.problem.start)]
     back = [exactly(value) for value in state]
     gaps = [math.nan if value is None else float(value - start) for value, start in zip(back, starts, strict=True)]
-    found: np.ndarray = np.divide(gaps, course.reach.sizes)
+    found: np.ndarray = np.divide(gaps, course.conditioning.sizes)
     return found

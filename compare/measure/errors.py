@@ -118,13 +118,13 @@ class _Sizes:
     def __init__(self, course: Course, signed: np.ndarray, rounding: Rounding, *, relative: bool) -> None:
         errors, space = np.abs(signed), course.problem.space
         places, rates = space.places(space.positions), space.places(space.rates)
-        units = course.reach.units if relative else np.ones_like(course.reach.units)
+        units = course.conditioning.units if relative else np.ones_like(course.conditioning.units)
         scaled, rounded = errors / units, rounding.state / units
         self.floor = rounding.floor
-        self.rounding = rounding.place if relative else float(np.max(rounded[places]))
+        self.rounding = rounding.position if relative else float(np.max(rounded[places]))
         self.velocity_rounding = float(np.max(rounded[rates], initial=0.0))
         self.place, self.velocity = _Norms(scaled[:, places]), _Norms(scaled[:, rates])
-        self.worst = _Norms((errors / course.reach.sizes)[:, places]).largest
+        self.worst = _Norms((errors / course.conditioning.sizes)[:, places]).largest
 
 
 class _Norms:

@@ -160,7 +160,7 @@ def _of(run: Run) -> Iterator[Growth]:
 
 def _quantities(run: Run) -> Iterator[tuple[str, Callable[[Run], np.ndarray], float]]:
     """What grows: its name, its error at each sample, and a bound on rounding's part of the largest."""
-    yield "place", lambda one: one.place, run.rounding.place
+    yield "place", lambda one: one.position_error, run.rounding.position
     if run.orbital_known:
         yield "phase", lambda one: one.orbital[:, 0], run.phase_rounding
     for i, invariant in enumerate(run.course.problem.invariants):

@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from reference.orbits import Orbits, Place
     from reference.problem import Problem
 
-__all__ = ["OrbitalReach", "early_reach", "orbital_reach"]
+__all__ = ["OrbitalConditioning", "early_conditioning", "orbital_conditioning"]
 
 STATES = 64
 """States of the exact motion at which roundings are made, at most."""
@@ -39,7 +39,7 @@ BITS = 4 * APART
 """Working bits of differences of differences, beside those of the problem."""
 
 
-class OrbitalReach(NamedTuple):
+class OrbitalConditioning(NamedTuple):
     """How far one rounding, of one part in a unit of each component, leads the phase in rad, and the amplitude.
 
     Infinite where no state has a phase, or an amplitude, that can be told from its neighbours'.
@@ -49,18 +49,18 @@ class OrbitalReach(NamedTuple):
     amplitude: float
 
 
-def orbital_reach(course: Course) -> OrbitalReach:
+def orbital_conditioning(course: Course) -> OrbitalConditioning:
     """Of a course whose problem has orbits: to the last of its times."""
     unit, counts = course.grid
     chosen = np.unique(np.linspace(0, len(counts) - 1, STATES).round().astype(int))
-    return _reach(course.problem, _hashable(course.truth[chosen]), unit * counts[-1])
+    return _conditioning(course.problem, _hashable(course.truth[chosen]), unit * counts[-1])
 
 
 @lru_cache(maxsize=64)
-def early_reach(problem: Problem, end: Fraction) -> OrbitalReach:
+def early_conditioning(problem: Problem, end: Fraction) -> OrbitalConditioning:
     """Of a problem that has orbits, to a time that need not be one of a march's."""
     states = proven(problem, end / EARLY_STATES, tuple(range(1, EARLY_STATES + 1)))
-    return _reach(problem, _hashable(states), end)
+    return _conditioning(problem, _hashable(states), end)
 
 
 def _hashable(states: np.ndarray) -> tuple[tuple[tuple[float, ...], ...], ...]:
@@ -69,12 +69,12 @@ def _hashable(states: np.ndarray) -> tuple[tuple[tuple[float, ...], ...], ...]:
 
 
 @lru_cache(maxsize=64)
-def _reach(problem: Problem, states: Sequence[Sequence[Sequence[float]]], end: Fraction) -> OrbitalReach:
+def _conditioning(problem: Problem, states: Sequence[Sequence[Sequence[float]]], end: Fraction) -> OrbitalConditioning:
     """Kept: the methods and the numbers of steps of a study come back to the same."""
     with ctx.workprec(BITS + problem.working_bits([end])):
         known = problem.orbits()
         if known is None:
-            return OrbitalReach(math.nan, math.nan)
+            return OrbitalConditioning(math.nan, math.nan)
         motion = _Neighbours(problem, known)
         balls = [[sum(map(arb, limbs), arb(0)) for limbs in state] for state in states]
         led = np.array([motion.led(y) for y in balls])
@@ -82,7 +82,7 @@ def _reach(problem: Problem, states: Sequence[Sequence[Sequence[float]]], end: F
     with np.errstate(invalid="ignore"):
         energy, phase, amplitude = (float(np.max(of[np.isfinite(of)], initial=-math.inf)) for of in led.T)
     told = abs(phase) + bend * energy * float(end)
-    return OrbitalReach(told if math.isfinite(told) else math.inf, abs(amplitude))
+    return OrbitalConditioning(told if math.isfinite(told) else math.inf, abs(amplitude))
 
 
 class _Neighbours:

@@ -17,7 +17,7 @@ from flint import arb
 
 from compare.march.lanes import Lane
 from compare.march.march import march
-from compare.measure.orbital import early_reach
+from compare.measure.orbital import early_conditioning
 from compare.measure.records import OwnPeriod
 from compare.measure.result import SPARE_BITS, as_balls
 from reference.arithmetic.namespaces import BALL
@@ -113,7 +113,7 @@ def _rounding(run: Run) -> float:
     """A bound on rounding's part of period/exact: that of the phase by then; roundings add up as the root of time."""
     course, end = run.course, 2 * run.course.problem.cycle()
     part = min(end / float(course.t_end), 1.0)
-    led = early_reach(course.problem, Fraction(end)).phase
+    led = early_conditioning(course.problem, Fraction(end)).phase
     return (run.rounding.steps * math.sqrt(part) * led / (2 * math.pi) + 4) * course.fmt.epsilon
 
 

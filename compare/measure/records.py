@@ -37,7 +37,7 @@ class Case:
         problem: the problem, as Python would make it.
         inputs: what tells it from others of its family, by name, such as (("theta0", 1.0),).
         label: the same in words, such as "theta0 = 1.0 rad".
-        error: what an error of the place is.
+        error: what a position error is.
         unit: its unit; "" where it is relative to the largest value of the place.
         samples: what the states are compared at: "times" or "points".
         step: the unit of the step size; "" for a number.
@@ -96,7 +96,7 @@ FLOOR_FACTOR = 2
 class Cell(OfCase):
     """The error of one method at one number of steps.
 
-    Errors of the place are in the case's unit; those of the velocity likewise, per second, or relative to its largest
+    Position errors are in the case's unit; those of the velocity likewise, per second, or relative to its largest
     value.  NaN where the case has no velocity.
 
     Attributes:
@@ -104,18 +104,18 @@ class Cell(OfCase):
         n: number of steps.
         h: step size in s, or in the case's own unit, as the double that the march used.
         case: the problem.
-        max_error: largest error of the place over the samples.
+        max_error: largest position error over the samples.
         end_error: its error at the last sample.
         local_order: log2-slope of max_error from the previous N of the same method and case, or None.
         floor: True where the cell is rounding, not order: which may have made half of the error or more.
         evaluations: evaluations of the right-hand side (or force) over the march.
-        rms_error: root mean square over the samples of the error of the place.
+        rms_error: root mean square over the samples of the position error.
         max_velocity_error: largest error of the velocity over the samples.
         end_velocity_error: its error at the last sample.
         rms_velocity_error: root mean square over the samples of the error of the velocity.
         digits: correct digits: -log10 of max_error over the largest value of the place, at most what the format holds.
         jacobians: evaluations of the Jacobian, or of the invariant's gradient, over the march.
-        rounding: a bound on rounding's part of the errors of the place; what it may change is not printed.
+        rounding: a bound on rounding's part of the position errors; what it may change is not printed.
         velocity_rounding: the same of the errors of the velocity.
         order_rounding: the same of the local order.
     """

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from flint import arb
 
-from compare.measure.orbital import orbital_reach
+from compare.measure.orbital import orbital_conditioning
 from compare.measure.rounding import LOST
 from reference.arithmetic.namespaces import BALL
 from reference.arithmetic.precision import ctx
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from compare.march.march import March
-    from compare.measure.orbital import OrbitalReach
+    from compare.measure.orbital import OrbitalConditioning
     from compare.measure.records import Cell
     from compare.measure.rounding import Rounding
     from compare.measure.truth import Course
@@ -47,10 +47,10 @@ class Run:
     rounding: Rounding
 
     @cached_property
-    def place(self) -> np.ndarray:
-        """The error of the place at each sample in the case's unit; of several components the largest."""
+    def position_error(self) -> np.ndarray:
+        """The position error at each sample in the case's unit; of several components the largest."""
         with np.errstate(over="ignore", invalid="ignore"):
-            return self.course.place(self.course.errors(self.march.states))
+            return self.course.position_error(self.course.errors(self.march.states))
 
     @cached_property
     def drifts(self) -> np.ndarray:
@@ -66,21 +66,21 @@ class Run:
     @property
     def state_rounding(self) -> float:
         """A bound on rounding's part of the state in units of its size."""
-        return float(np.max(self.rounding.state / self.course.reach.sizes))
+        return float(np.max(self.rounding.state / self.course.conditioning.sizes))
 
     @property
     def phase_rounding(self) -> float:
         """A bound on rounding's part of the phase in rad."""
-        return self.rounding.steps * self.course.fmt.epsilon * self._reach.phase
+        return self.rounding.steps * self.course.fmt.epsilon * self._conditioning.phase
 
     @property
     def amplitude_rounding(self) -> float:
         """A bound on rounding's part of the amplitude."""
-        return self.rounding.steps * self.course.fmt.epsilon * self._reach.amplitude
+        return self.rounding.steps * self.course.fmt.epsilon * self._conditioning.amplitude
 
     @cached_property
-    def _reach(self) -> OrbitalReach:
-        return orbital_reach(self.course)
+    def _conditioning(self) -> OrbitalConditioning:
+        return orbital_conditioning(self.course)
 
     @cached_property
     def orbital_known(self) -> bool:

@@ -42,7 +42,7 @@ UNDECIDED = 2000
 ENERGY_ROUNDINGS = 4
 """In computing an energy, of its own size."""
 LOST = 1.0
-"""From an error of the place of so much on, in rad or in sizes, a march is on another motion, and its own neighbour
+"""From a position error of so much on, in rad or in sizes, a march is on another motion, and its own neighbour
 tells how far that carries roundings."""
 SENSITIVE = 256
 """A start that is moved by some part of itself changes the truncation error by at most so many such parts."""
@@ -53,14 +53,14 @@ class Rounding:
     """Bounds on what rounding made of one march.
 
     Attributes:
-        place: of the error of the place, in the unit of ``Course.place``.
+        position: of the position error, in the unit of ``Course.position_error``.
         state: of the error of each component, as it is.
         drifts: of the change of each invariant, over its scale.
-        floor: whether the error of the place is rounding.
+        floor: whether the position error is rounding.
         steps: to how many roundings, each of one part in a unit and led as far as any is, all of them add up.
     """
 
-    place: float
+    position: float
     state: np.ndarray
     drifts: np.ndarray
     floor: bool
@@ -73,7 +73,7 @@ def roundings_of(
     """What rounding made of each march, given its errors [samples, state]; each problem's courses by N."""
     steps = [_steps(method, course) for course in courses]
     bounds = [_bounds(*of) for of in zip(courses, steps, errors, strict=True)]
-    sizes = [float(np.max(course.place(error))) for course, error in zip(courses, errors, strict=True)]
+    sizes = [float(np.max(course.position_error(error))) for course, error in zip(courses, errors, strict=True)]
     lost = [not size < LOST for size in sizes]
     members: dict[Problem, list[int]] = {}
     for i, course in enumerate(courses):
@@ -94,7 +94,7 @@ def roundings_of(
     floors = {i: floor for own in members.values() for i, floor in _floors(own, sizes, bounds, lost)}
     return [
         Rounding(
-            place=float(row[0]),
+            position=float(row[0]),
             state=row[1 + len(course.scales) :],
             drifts=row[1 : 1 + len(course.scales)],
             floor=floors[i],
@@ -120,11 +120,9 @@ def _bounds(course: Course, steps: float, errors: np.ndarray) -> np.ndarray:
 
     Along a curve the same step is added again and again: the coordinate's error is known, and so is what it makes.
     """
-    along = course.carried(errors)
-    drifts = steps * course.reach.drift_led + ENERGY_ROUNDINGS * course.fmt.epsilon
-    return np.array(
-        [steps * course.reach.place_led + along, *drifts, *(steps * course.reach.led + along * course.reach.units)]
-    )
+    along, known = course.carried(errors), course.conditioning
+    drifts = steps * known.drift_led + ENERGY_ROUNDINGS * course.fmt.epsilon
+    return np.array([steps * known.position_led + along, *drifts, *(steps * known.led + along * known.units)])
 
 
 def _probes(own: Sequence[int], courses: Sequence[Course], sizes: Sequence[float], bounds: Sequence[Any]) -> list[int]:
@@ -139,13 +137,13 @@ def _told(course: Course, result: March, errors: np.ndarray, neighbour: Course, 
     """What tells a march from its neighbour's, less what the distance of their starts makes of the truncation error."""
     drifts, others = course.drifts(result.states), neighbour.drifts(other.states)
     row, largest = (
-        np.array([np.max(course.place(gap)), *np.max(drift, axis=1, initial=0.0), *np.max(gap, axis=0)])
+        np.array([np.max(course.position_error(gap)), *np.max(drift, axis=1, initial=0.0), *np.max(gap, axis=0)])
         for gap, drift in (
             (_known(errors - neighbour.errors(other.states)), _known(drifts - others)),
             (_known(errors), _known(drifts)),
         )
     )
-    told: np.ndarray = row - SENSITIVE * course.reach.apart * largest
+    told: np.ndarray = row - SENSITIVE * course.conditioning.apart * largest
     return told
 
 

@@ -12,10 +12,10 @@ import numpy as np
 
 from compare.march.autonomous import autonomous
 from compare.march.equation import FormatArithmetic
-from compare.march.lanes import Lane, drift_scales, sample_steps, start_levels
+from compare.march.lanes import Lane, drift_scales, initial_invariants, sample_steps
 from compare.march.precision import precision
 from compare.measure.cases import case_of
-from compare.measure.conditioning import Reach, reach
+from compare.measure.conditioning import Conditioning, conditioning
 from reference.once import cached_property
 
 if TYPE_CHECKING:
@@ -94,14 +94,16 @@ class Course:
         return case_of(self.problem.original)
 
     @cached_property
-    def reach(self) -> Reach:
+    def conditioning(self) -> Conditioning:
         """How large the motion is, and how far it carries roundings: the same object on the same grid of times."""
-        return _reach_on(self.problem, *self.grid, self.fmt)
+        return _conditioning_on(self.problem, *self.grid, self.fmt)
 
-    def place(self, errors: np.ndarray) -> np.ndarray:
+    def position_error(self, errors: np.ndarray) -> np.ndarray:
         """The position error at each sample, of errors [samples, state]: of several components the largest."""
         space = self.problem.space
-        largest: np.ndarray = np.max((np.abs(errors) / self.reach.units)[:, space.places(space.positions)], axis=1)
+        largest: np.ndarray = np.max(
+            (np.abs(errors) / self.conditioning.units)[:, space.places(space.positions)], axis=1
+        )
         return largest
 
     def carried(self, errors: np.ndarray) -> float:
@@ -113,7 +115,9 @@ class Course:
         if space.along is None:
             return 0.0
         (along,) = space.places([space.along])
-        return float(np.max((self.reach.slopes + float(self.h) * self.reach.bends) * np.abs(errors[:, along])))
+        return float(
+            np.max((self.conditioning.slopes + float(self.h) * self.conditioning.bends) * np.abs(errors[:, along]))
+        )
 
     @property
     def lane(self) -> Lane:
@@ -138,8 +142,8 @@ class Course:
         parameters = {name: self.fmt.number(value) for name, value in problem.parameters.items()}
         m, y = FormatArithmetic(self.fmt), tuple(np.moveaxis(states, 1, 0))
         found = np.full((len(problem.invariants), len(states)), np.nan)
-        levels, scales = start_levels(problem, self.fmt), drift_scales(problem, self.fmt)
-        for i, (one, level, scale) in enumerate(zip(problem.invariants, levels, scales, strict=True)):
+        initial, scales = initial_invariants(problem, self.fmt), drift_scales(problem, self.fmt)
+        for i, (one, level, scale) in enumerate(zip(problem.invariants, initial, scales, strict=True)):
             if scale:
                 found[i] = ((getattr(problem, one.value)(m, y, parameters) - level) / scale).astype(np.float64)
         return found
@@ -173,8 +177,8 @@ def _limbs(fmt: Precision) -> int:
 
 
 @lru_cache(maxsize=64)
-def _reach_on(problem: Problem, unit: Fraction, counts: tuple[int, ...], fmt: Precision) -> Reach:
-    """The reach at multiples of a time, kept."""
+def _conditioning_on(problem: Problem, unit: Fraction, counts: tuple[int, ...], fmt: Precision) -> Conditioning:
+    """The conditioning at multiples of a time, kept."""
     near = problem.neighbour(fmt.round, fmt.exact_epsilon)
     truth, other = (proven(one, unit, counts, _limbs(fmt)) for one in (problem, near))
-    return reach(problem, truth, near, other, fmt)
+    return conditioning(problem, truth, near, other, fmt)

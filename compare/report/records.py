@@ -18,7 +18,7 @@ class WorkPoint:
         name: of the method or solver.
         kind: "method", which takes a number of steps, or "solver", which takes a tolerance.
         setting: the number of steps, or the tolerance.
-        max_error: the largest error of the place over the samples, in the family's units of errors; NaN where there is
+        max_error: the largest position error over the samples, in the family's units of errors; NaN where there is
             none.
         floor: whether the error is rounding rather than truncation.
         evaluations: what it took, in its own count; None where it failed.

@@ -123,7 +123,7 @@ def test_rounding_is_within_its_bound_on_the_singular_curves_too(problem: Any, n
     exact = [one.errors(result.states) for one, result in zip(wide, true, strict=True)]
     bounds = roundings_of(method, courses, marches, errors, FLOAT64)
     shares = [
-        float(np.max(one.place(a - b))) / bound.place
+        float(np.max(one.position_error(a - b))) / bound.position
         for one, a, b, bound in zip(courses, errors, exact, bounds, strict=True)
     ]
     assert max(shares) <= 1

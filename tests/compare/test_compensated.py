@@ -68,7 +68,7 @@ def test_every_method_takes_it_and_stays_itself(method: Method) -> None:
     parameters = np.stack([np.full(8, value) for value in (1 / 64, 0.0, 9.81, 1.0)])
     parameters[1] = plain_system(Pendulum(1.0), FLOAT64, parameters).invariant(tuple(states))
     iterations = method.iterations(0.05, 53)
-    steps = method.opening + 4
+    steps = method.starting_steps + 4
     plain = plain_block(helped, Pendulum(1.0), FLOAT64, states, parameters, steps, iterations)
     base = plain_block(method, Pendulum(1.0), FLOAT64, states, parameters, steps, iterations)
     np.testing.assert_allclose(plain[:, :2], base[:, :2], rtol=0, atol=1e-14)

@@ -84,7 +84,7 @@ def test_evaluations_are_counted_as_they_are_made(method: Method) -> None:
     level = float(FLOAT64.number(StartInvariant(PENDULUM)))
     counted = Counter(plain_system(PENDULUM, FLOAT64, np.array([0.1, level, 9.81, 1.0])))
     _, y = method.start(counted, (1.0, 0.0), 0.1)
-    for _ in range(100 - method.opening):
+    for _ in range(100 - method.starting_steps):
         y, _change = method.step(counted, y, 0.1, iterations)
     shared = 99 if isinstance(method, Splitting) and method.evaluations(iterations)[1] else 0
     assert result.evaluations == counted.evaluations - shared

@@ -40,7 +40,7 @@ def test_order_by_algebra_is_the_declared_one(method: Method) -> None:
 
 @by_name
 def test_order_by_slope_in_binary128_is_the_declared_one(method: Method) -> None:
-    """The opening is exact beside the rest, and so the error begins some steps late: N is large beside its steps."""
+    """The starting procedure is exact beside the rest, so that the error begins late: N is large beside its steps."""
     cells, _ = score_method(method, COURSES, FLOAT128)
     fitted = fit_order(method, cells)
     assert fitted.cells_used == len(COURSES)
@@ -129,11 +129,11 @@ def test_the_states_of_a_march_satisfy_the_formula(name: str) -> None:
 def test_the_positions_of_a_march_satisfy_stormers_formula(name: str) -> None:
     method = find(name)
     assert isinstance(method, StormerCowell)
-    """From the second step on: the first goes on from the velocity that the opening ends with."""
+    """From the second step on: the first goes on from the velocity that the starting procedure ends with."""
     y = states_of(method, 128)
     q, force = y[:, 0], -9.81 * np.sin(y[:, 0])
     k = len(method.beta) - 1
-    first = method.opening - k + 2
+    first = method.starting_steps - k + 2
     second = q[2:] - 2 * q[1:-1] + q[:-2]
     right = sum(float(weight) * force[j : len(q) - k + j] for j, weight in enumerate(method.beta)) / 64**2
     np.testing.assert_allclose(second[k - 2 :][first:], right[first:], rtol=0, atol=5e-15)
@@ -143,7 +143,7 @@ def test_stormers_method_with_one_force_is_verlets() -> None:
     beta = (Q(0), *stormer(1, implicit=False))
     method = StormerCowell("stormer2", 2, "none", beta, velocity=1, starter=RK4)
     assert method.proven_order() == 2
-    assert method.opening == 0
+    assert method.starting_steps == 0
     np.testing.assert_allclose(states_of(method, 500), states_of(find("verlet"), 500), rtol=0, atol=1e-13)
 
 

@@ -76,7 +76,7 @@ def test_a_small_error_of_the_state_is_one_of_phase_along_the_orbit_and_of_ampli
     (cell,) = score(find("rk4"), [course], FLOAT64, ())["error_vs_n"]
     arc, rate = course.truth[-1, :, 0]
     along = rate / W * found.end_phase_error + arc * found.end_amplitude_error
-    assert abs(along) == pytest.approx(cell.end_error * course.reach.sizes[0], rel=1e-6)
+    assert abs(along) == pytest.approx(cell.end_error * course.conditioning.sizes[0], rel=1e-6)
 
 
 def test_a_rotation_has_a_phase_and_no_amplitude() -> None:

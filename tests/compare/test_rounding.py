@@ -63,7 +63,7 @@ def shares(name: str, problem: Problem) -> list[float]:
         told(method, courses), courses, own, its, narrow, exact, strict=True
     ):
         if (
-            np.max(course.place(error)) < 0.1
+            np.max(course.position_error(error)) < 0.1
         ):  # one that is lost is on another motion, which carries roundings otherwise
             off = np.max(np.abs(error - other), axis=0)
             drift = max(
@@ -76,7 +76,15 @@ def shares(name: str, problem: Problem) -> list[float]:
                 ),
                 default=0.0,
             )
-            found.append(float(max(np.max(off / one.state), np.max(course.place(error - other)) / one.place, drift)))
+            found.append(
+                float(
+                    max(
+                        np.max(off / one.state),
+                        np.max(course.position_error(error - other)) / one.position,
+                        drift,
+                    )
+                )
+            )
     return found
 
 
@@ -119,7 +127,7 @@ def test_compensated_sums_lose_less_and_their_floor_is_found() -> None:
     courses = courses_of(Pendulum(1.0), (4096, 16384, 65536, 262144), FLOAT32)
     plain, better = told(find("rk4"), courses), told(compensate(find("rk4")), courses)
     assert all(found.floor for found in better)
-    assert all(a.place < b.place for a, b in zip(better, plain, strict=True))
+    assert all(a.position < b.position for a, b in zip(better, plain, strict=True))
 
 
 def test_a_method_far_from_rounding_marches_no_neighbour(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -145,12 +153,12 @@ def test_the_bound_grows_where_a_neighbour_tells_of_more(monkeypatch: pytest.Mon
         found = march(*arguments, **options)
         if options:
             for one in found:
-                one.states[:, 0] += 100 * before[0].place
+                one.states[:, 0] += 100 * before[0].position
         return found
 
     monkeypatch.setattr("compare.measure.rounding.march", noisy)
     wider = told(method, courses)
-    assert {after.place / one.place for one, after in zip(before, wider, strict=True)} <= {16.0, 64.0, 256.0}
+    assert {after.position / one.position for one, after in zip(before, wider, strict=True)} <= {16.0, 64.0, 256.0}
 
 
 def counted(monkeypatch: pytest.MonkeyPatch) -> list[int]:

@@ -225,5 +225,5 @@ def test_the_separatrix_has_a_trend_per_second() -> None:
 def test_errors_in_the_units_of_the_state_are_not_divided_by_its_size() -> None:
     course = Course(CycloidalPendulum(2.0), 128, Fraction(10), FLOAT64)
     (plain,), ((relative,), _) = score_errors(RK4, [course], FLOAT64), score_method(RK4, [course], FLOAT64)
-    assert plain.max_error == pytest.approx(relative.max_error * course.reach.sizes[0], rel=1e-12)
+    assert plain.max_error == pytest.approx(relative.max_error * course.conditioning.sizes[0], rel=1e-12)
     assert plain.digits == relative.digits

@@ -21,7 +21,7 @@ DUALS = DualArithmetic(BALL, 2)
 class Rotor:
     """q' = p + p^3/5,  p' = -sin q in dual balls: separable, with velocities that are not linear in the momenta."""
 
-    positions, dimension, level = 1, 2, None
+    positions, dimension, initial_invariant = 1, 2, None
 
     def number(self, value: Any) -> arb:
         return enclose(value)

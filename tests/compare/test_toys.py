@@ -43,7 +43,7 @@ def test_the_closed_form_is_keplers_ellipse() -> None:
 def test_an_error_in_the_second_position_counts() -> None:
     course = Course(Kepler(), 256, Fraction(8), FLOAT64)
     off = course.truth[:, :, 0] + np.array([0.0, 0.25, 0.0, 0.0])
-    assert np.max(course.place(course.errors(off))) == pytest.approx(0.25)
+    assert np.max(course.position_error(course.errors(off))) == pytest.approx(0.25)
     (cell,) = compare.error_vs_n(Kepler(), ["euler"], n=[256], t_end=8)
     assert cell.max_error > 0.5
 

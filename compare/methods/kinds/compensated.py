@@ -55,8 +55,8 @@ class _ValueSystem:
         self.dimension, self.positions = system.dimension, system.positions
 
     @property
-    def level(self) -> Any:
-        return self._system.level
+    def initial_invariant(self) -> Any:
+        return self._system.initial_invariant
 
     def derivative(self, y: State) -> State:
         return self._system.derivative(_values(y))

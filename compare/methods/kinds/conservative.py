@@ -129,7 +129,7 @@ class Projected(OneStep):
         for _ in range(iterations):
             new = _plus(z, away)
             gradient = system.gradient(new)
-            excess = system.invariant(new) - system.level
+            excess = system.invariant(new) - system.initial_invariant
             multiplier = (_dot(gradient, away) - excess) / (_dot(gradient, gradient) + system.tiny)
             change = _minus(_scaled(multiplier, gradient), away)
             away = _scaled(multiplier, gradient)
@@ -239,5 +239,5 @@ class DiscreteGradient(_Increment):
         """S G."""
         f, g = system.derivative(middle), system.gradient(middle)
         along, size = _dot(g, d), _dot(g, g) + system.tiny
-        a = (system.invariant(_plus(y, d)) - system.level - along) / (_dot(d, d) + system.tiny)
+        a = (system.invariant(_plus(y, d)) - system.initial_invariant - along) / (_dot(d, d) + system.tiny)
         return _minus(_scaled(1 + a * along / size, f), _scaled(a * _dot(f, d) / size, g))

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 __all__ = ["Linear", "LinearMultistep", "Past", "PredictorCorrector", "moved", "total", "without_zeros"]
 
 SUBSTEPS = 4
-"""Steps of the starter in each step of an opening."""
+"""Steps of the starter in each step of a starting procedure."""
 
 
 @dataclass(frozen=True)
@@ -41,21 +41,21 @@ class Past:
     starter: Method
 
     @property
-    def opening(self) -> int:
+    def starting_steps(self) -> int:
         """Steps to be taken by another method before there is such a past."""
         return max(self.moves, self.slopes - 1, 0)
 
     @property
     def evaluations(self) -> int:
         """Evaluations of the right-hand side in the start."""
-        return self.opening * SUBSTEPS * self.starter.stages + self.slopes
+        return self.starting_steps * SUBSTEPS * self.starter.stages + self.slopes
 
     def start(
         self, system: System, y: State, h: Any, slope: Callable[[State], State]
     ) -> tuple[tuple[State, ...], State]:
-        """The states after each step of the opening, and the last with the past behind it."""
+        """The states after each step of the starting procedure, and the last with the past behind it."""
         states = [y]
-        for _ in range(self.opening):
+        for _ in range(self.starting_steps):
             for _ in range(SUBSTEPS):
                 y, _changes = self.starter.step(system, y, part(system, Q(1, SUBSTEPS), h))
             states.append(y)
@@ -113,8 +113,8 @@ class Multistep:
         raise NotImplementedError
 
     @property
-    def opening(self) -> int:
-        return self.past.opening
+    def starting_steps(self) -> int:
+        return self.past.starting_steps
 
     def memory(self, dimension: int, positions: int) -> int:
         """Increments and slopes are of the state; where the method is of second order in time, of the positions."""

@@ -41,7 +41,7 @@ class System(Equation, Protocol):
     """A number that is nothing beside any other but zero."""
 
     @property
-    def level(self) -> Any:
+    def initial_invariant(self) -> Any:
         """The first invariant at the start of the march, which a conservative method keeps."""
 
     def velocity(self, momenta: State) -> State:
@@ -85,7 +85,7 @@ class Method(Protocol):
     def second_order_only(self) -> bool: ...
 
     @property
-    def opening(self) -> int:
+    def starting_steps(self) -> int:
         """How many steps ``start`` takes: those that a method with a memory cannot take itself."""
 
     def memory(self, dimension: int, positions: int) -> int:
@@ -101,7 +101,7 @@ class Method(Protocol):
         """Evaluations of the Jacobian, or of the invariant's gradient, in a step."""
 
     def start(self, system: System, y: State, h: Any) -> tuple[tuple[State, ...], State]:
-        """The states after each step of the opening, and the last of them (or y) with the memory behind it."""
+        """The states after each starting step, and the last of them (or y) with the memory behind it."""
 
     def step(self, system: System, y: State, h: Any, iterations: int = 0) -> tuple[State, State]:
         """The state and memory after a step, and what the last iteration changed (nothing in an explicit method)."""
@@ -110,7 +110,7 @@ class Method(Protocol):
 class OneStep:
     """What the explicit methods without a memory have in common."""
 
-    opening: ClassVar[int] = 0
+    starting_steps: ClassVar[int] = 0
 
     def memory(self, dimension: int, positions: int) -> int:  # noqa: ARG002
         return 0

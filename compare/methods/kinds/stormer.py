@@ -83,7 +83,7 @@ class StormerCowell(Linear):
         return Past(0, len(self.of_forces), self.starter)
 
     def start(self, system: System, y: State, h: Any) -> tuple[tuple[State, ...], State]:
-        """The opening.
+        """The starting procedure.
 
         Raises:
             ValueError: the equation is not q'' = F(q): its velocity is not the momentum.

@@ -62,7 +62,7 @@ class Rationals:
 class Forest:
     """The equations of some trees, with every subtree of one among them, as a system in exact numbers."""
 
-    positions, level, tiny = 0, None, None
+    positions, initial_invariant, tiny = 0, None, None
 
     def __init__(self, known: Sequence[Tree]) -> None:
         self.dimension = len(known)
