@@ -132,6 +132,14 @@ class Problem:
         """What tells the problem from others of its family: numbers or names, and their units, by name."""
         raise NotImplementedError
 
+    def parameters_in(self, m: Any) -> dict[str, Any]:
+        """The parameters by name, as numbers of an arithmetic."""
+        return {name: m.number(value) for name, value in self.parameters.items()}
+
+    def start_in(self, m: Any) -> list[Any]:
+        """The initial state, as numbers of an arithmetic."""
+        return [m.number(value) for value in self.start]
+
     @property
     def constants(self) -> tuple[Constant, ...]:
         """The physical constants that the parameters come from; none where they are given themselves."""
@@ -221,7 +229,7 @@ class Problem:
         states = [list(map(float, y)) for y in self.state(times)]
         arithmetic: Any = NUMPY
         duals: Any = DualArithmetic(arithmetic, len(self.state_names))
-        p = {name: float(value) for name, value in self.parameters.items()}
+        p = self.parameters_in(NUMPY)
         found = [0.0]
         for t, y in zip(times, states, strict=True):
             variables = [duals.variable(value, i) for i, value in enumerate(y)]
@@ -476,8 +484,8 @@ class HamiltonianProblem(Problem):
         size = len(self.space.positions)
         if self.space.components != (*self.space.positions, *self.space.momenta):
             return False
-        c = {name: float(value) for name, value in self.parameters.items()}
-        start = [float(value) for value in self.start]
+        c = self.parameters_in(NUMPY)
+        start = self.start_in(NUMPY)
         here = self._slopes(NUMPY, 0.0, start[:size], start[size:], c)
         moved = [value * FAR[i % len(FAR)] + NEAR[i % len(NEAR)] for i, value in enumerate(start)]
         other_momenta = self._slopes(NUMPY, 0.0, start[:size], moved[size:], c)
@@ -488,7 +496,7 @@ class HamiltonianProblem(Problem):
     @property
     def second_order(self) -> bool:
         trial = [(3 * k + 2) / 7 for k in range(self.positions)]
-        c = {name: float(value) for name, value in self.parameters.items()}
+        c = self.parameters_in(NUMPY)
         return bool(trial) and self.autonomous and [float(v) for v in self.velocity(NUMPY, trial, c)] == trial
 
     def velocity(self, m: Arithmetic, momenta: Sequence[Any], p: dict[str, Any]) -> tuple[Any, ...]:

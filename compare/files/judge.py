@@ -382,10 +382,10 @@ class _Bench:
 
     def __init__(self, problem: Problem, bits: int) -> None:
         self._problem = problem
-        self._parameters = {name: BALL.number(value) for name, value in problem.parameters.items()}
+        self._parameters = problem.parameters_in(BALL)
         self._orbits: Orbits | None = problem.orbits()
         self._resolution = arb(2) ** -bits
-        start = [BALL.number(value) for value in problem.start]
+        start = problem.start_in(BALL)
         self._start: arb | None = self._invariant(start)
         self._scale = arb(0) if self._start is None else self._start
         if problem.invariants and problem.invariants[0].scale == "kinetic":

@@ -79,8 +79,8 @@ class StartInvariant:
         return Fraction(found) if isinstance(found, (int, Fraction)) else None
 
     def _at(self, m: Any) -> Any:
-        start = [m.number(value) for value in self.problem.start]
-        parameters = {name: m.number(value) for name, value in self.problem.parameters.items()}
+        start = self.problem.start_in(m)
+        parameters = self.problem.parameters_in(m)
         return getattr(self.problem, self.value)(m, start, parameters)
 
 

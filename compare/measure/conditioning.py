@@ -115,7 +115,7 @@ class _Motion:
     def __init__(self, problem: Problem, state: np.ndarray) -> None:
         fmt = precision("float64")
         self.problem, self.state = problem, state
-        self.parameters = {name: float(value) for name, value in problem.parameters.items()}
+        self.parameters = problem.parameters_in(NUMPY)
         self._scales = drift_scales(problem, fmt)
         self._system = BoundSystem(
             problem, FormatArithmetic(fmt), self.parameters, fmt, initial_invariants(problem, fmt)

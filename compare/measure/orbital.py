@@ -90,7 +90,7 @@ class _Neighbours:
 
     def __init__(self, problem: Problem, known: Orbits) -> None:
         self._problem, self._orbits, self._apart = problem, known, arb(2) ** -APART
-        self._parameters = {name: BALL.number(value) for name, value in problem.parameters.items()}
+        self._parameters = problem.parameters_in(BALL)
 
     def led(self, y: Sequence[arb]) -> tuple[float, float, float]:
         """What a part of every component makes of E, the phase in rad and the amplitude, for one part in a unit."""

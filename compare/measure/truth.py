@@ -139,7 +139,7 @@ class Course:
         Computed in the format; not a number where the scale is below the format's range.
         """
         problem = self.problem
-        parameters = {name: self.fmt.number(value) for name, value in problem.parameters.items()}
+        parameters = problem.parameters_in(self.fmt)
         m, y = FormatArithmetic(self.fmt), tuple(np.moveaxis(states, 1, 0))
         found = np.full((len(problem.invariants), len(states)), np.nan)
         initial, scales = initial_invariants(problem, self.fmt), drift_scales(problem, self.fmt)

@@ -86,7 +86,7 @@ class Question:
     @property
     def start(self) -> np.ndarray:
         """The initial state."""
-        return np.array([float(value) for value in self.problem.start])
+        return np.array(self.problem.start_in(NUMPY))
 
     @property
     def end(self) -> float:
@@ -96,7 +96,7 @@ class Question:
     @property
     def parameters(self) -> dict[str, float]:
         """The problem's parameters as floats."""
-        return {name: float(value) for name, value in self.problem.parameters.items()}
+        return self.problem.parameters_in(NUMPY)
 
     @property
     def positions(self) -> int:

@@ -82,7 +82,7 @@ def dense(problem: Pendulum, method: str, step: Fraction, end: Fraction) -> Dens
     (found,) = march(find(method), [Lane(problem, n, h, tuple(range(1, n + 1)))], fmt)
     start = tuple(float(value) for value in problem.start)
     states = [start, *map(tuple, found.states.tolist())]
-    parameters: dict[str, Any] = {name: float(value) for name, value in problem.parameters.items()}
+    parameters: dict[str, Any] = problem.parameters_in(NUMPY)
     rates = (tuple(map(float, problem.derivative(NUMPY, 0, state, parameters))) for state in states)
     return Dense(float(h), tuple(states), tuple(rates))  # type: ignore[arg-type]
 

@@ -48,14 +48,14 @@ class Places:
     def __init__(self, problem: Problem, *, rotates: bool) -> None:
         self._problem, self._rotates = problem, rotates
         self._direction = 1 if problem.start[1] > 0 else -1
-        self._parameters = {name: float(value) for name, value in problem.parameters.items()}
+        self._parameters = problem.parameters_in(NUMPY)
         with ctx.workprec(BITS + problem.working_bits([])):
             kind = problem.orbits()
             start = None if kind is None else kind.truth(Fraction(0))
             self._phase = float("nan") if start is None or start.phase is None else float(start.phase)
             self._amplitude = float("nan") if start is None or start.amplitude is None else float(start.amplitude)
-            parameters = {name: BALL.number(value) for name, value in problem.parameters.items()}
-            y = [BALL.number(value) for value in problem.start]
+            parameters = problem.parameters_in(BALL)
+            y = problem.start_in(BALL)
             self._energy = float(arb(problem.invariant(BALL, y, parameters)))
 
     def found(self, theta: np.ndarray, omega: np.ndarray, true: Sketched, late: np.ndarray) -> Found:

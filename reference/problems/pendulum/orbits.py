@@ -24,7 +24,7 @@ class PendulumOrbits:
     def __init__(self, problem: Problem) -> None:
         parameters = problem.parameters
         self.w = (BALL.number(parameters["g"]) / BALL.number(parameters["length"])).sqrt()
-        self._start = self.place([BALL.number(value) for value in problem.start])
+        self._start = self.place(problem.start_in(BALL))
         periodic = problem.serves("period")
         self._frequency = 1 / problem.closed_form(BALL).rows("period", [None])[0][0] if periodic else arb(0)
 

@@ -35,7 +35,7 @@ class CentralOrbits:
     def __init__(self, problem: Problem) -> None:
         form: Any = problem.closed_form(BALL)
         self._problem, self.z0 = problem, form.z0
-        self._parameters = {name: BALL.number(value) for name, value in problem.parameters.items()}
+        self._parameters = problem.parameters_in(BALL)
         self.kappa: arb = self._parameters["kappa"]
         self._frequency = 1 / (2 * form.descent_time)
 
