@@ -16,7 +16,7 @@ from toys import FORCED, KEPLER, Forced, Kepler, independent_kepler
 import compare
 from compare.__main__ import main
 from compare.files.score import score
-from compare.march.lanes import StartInvariant, start_levels
+from compare.march.lanes import StartInvariant, initial_invariants
 from compare.march.precision import precision
 from compare.measure.truth import Course
 from compare.report.run import plan, run
@@ -78,7 +78,7 @@ def test_the_drift_of_a_negative_energy_is_positive_and_scaled_by_its_size() -> 
 def test_an_initial_energy_that_is_a_double_is_exact() -> None:
     """sqrt(x^2 + y^2) of 2/5 is no exact ball, so that no precision would tell -1/2 from its neighbours."""
     assert StartInvariant(Kepler()).exact() == Fraction(-1, 2)
-    assert start_levels(Kepler(), FLOAT64)[0] == -0.5
+    assert initial_invariants(Kepler(), FLOAT64)[0] == -0.5
 
 
 def test_the_phase_is_said_not_to_be_defined(capsys: pytest.CaptureFixture[str]) -> None:
