@@ -52,7 +52,7 @@ def _table(name: str, title: str, order: Order) -> str:
 
 
 def json_text(found: Check) -> str:
-    """One object; what was not measured is null."""
+    """One object; what was not measured is null, and ``not_applicable`` says why the problem has no such thing."""
     answer: dict[str, Any] = {
         "name": found.name,
         "form": found.form,
@@ -73,9 +73,9 @@ def json_text(found: Check) -> str:
         "order_still": found.still.value,
         "order_where_time_enters": None if found.swinging is None else found.swinging.value,
         "symplecticity_defect": _number(found.symplecticity.size),
-        "symplectic": found.symplecticity.none,
+        "symplectic": None if found.symplecticity.lacks else found.symplecticity.none,
         "reversibility_defect": _number(found.reversibility.size),
-        "reversible": found.reversibility.none,
+        "reversible": None if found.reversibility.lacks else found.reversibility.none,
         "defects_at_h": {"symplecticity": found.symplecticity.h, "reversibility": found.reversibility.h},
         "energy": {
             "behaviour": found.energy.behaviour,
@@ -91,6 +91,13 @@ def json_text(found: Check) -> str:
             for cell in found.still.cells
         ],
     }
+    lacks = {
+        "symplectic": found.symplecticity.lacks,
+        "reversible": found.reversibility.lacks,
+        "energy": found.energy.lacks,
+    }
+    if lacks := {name: why for name, why in lacks.items() if why}:
+        answer["not_applicable"] = lacks
     return json.dumps(answer, indent=2, ensure_ascii=False, allow_nan=False) + "\n"
 
 
