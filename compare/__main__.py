@@ -63,7 +63,6 @@ def _shown(request: Request, run_study: Callable[..., Any], table: str, plot: st
     """Run a study, write what is to be written, and return the tables, by the modules of its tables and its plots."""
     from compare.show import render
 
-    tables = import_module(table).TABLES
     out = request.out
     if out is None and request.plots:
         out = DEFAULT_FOLDER.format(problem=request.command)
@@ -76,15 +75,16 @@ def _shown(request: Request, run_study: Callable[..., Any], table: str, plot: st
             results = stack.enter_context(folder(out))
         with _progress(request.quiet) as progress:
             study = run_study(request, progress)
+            page = import_module(table).page(study)
             if results is not None:
-                results.write(render.files(study, tables, request.form, width))
+                results.write(render.files(page, request.form, width))
             if results is not None and request.plots:
                 if progress is not None:
                     progress("drawing")
                 results.write(import_module(plot).files(study))
     if results is not None and not request.quiet:
         print(f"wrote {', '.join(results.names)} into {results.target}", file=sys.stderr)
-    return render.render(study, tables, request.form, width)
+    return render.render(page, request.form, width)
 
 
 def _check(request: Request) -> int:
@@ -98,10 +98,11 @@ def _check(request: Request) -> int:
 
 def _errata(request: Request) -> int:
     """Print the errata, their checks run now; one that is not confirmed is a failure."""
+    from compare.show import render
     from compare.sources.errata import entries, show
 
     found = show.records(entries.ENTRIES)
-    _print(show.render(found, request.form, _width()))
+    _print(render.render(show.page(found), request.form, _width()))
     return 0 if all(record["confirmed"] for record in found) else 1
 
 
@@ -165,11 +166,12 @@ def _report(request: Request) -> str:
         found = run(wanted, out, jobs=request.options["jobs"], executor=request.options["executor"], progress=progress)
     if not request.quiet:
         print(f"wrote report.md and what goes with it into {out}", file=sys.stderr)
-    return render.render(found, table.TABLES, request.form, _width())
+    return render.render(table.page(found), request.form, _width())
 
 
 def _published(request: Request) -> str:
     """The tables that are named, or all; where figures are named, they are written."""
+    from compare.show import render
     from compare.sources.published import show
     from compare.sources.published.entry import reproduce
 
@@ -177,7 +179,7 @@ def _published(request: Request) -> str:
     found = reproduce(names) if names or target is None else []
     if target is not None:
         _draw_published(request, target)
-    return show.render(found, request.form, _width()) if found else ""
+    return render.render(show.page(found), request.form, _width()) if found else ""
 
 
 def _draw_published(request: Request, target: str) -> None:
@@ -192,17 +194,17 @@ def _draw_published(request: Request, target: str) -> None:
 
 def _listing(form: str) -> str:
     from compare.methods import METHODS
-    from compare.show import listing
+    from compare.show import listing, render
 
-    return listing.render(METHODS, form)
+    return render.render(listing.page(METHODS), form)
 
 
 def _method(name: str, form: str) -> str:
     from compare.methods import find
-    from compare.show import method_text
+    from compare.show import method_text, render
     from compare.show.method import describe
 
-    return method_text.render(describe(find(name)), form)
+    return render.render(method_text.page(describe(find(name))), form)
 
 
 def _width() -> int:

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
     from reference.family import Family
 
-__all__ = ["COMMANDS", "Request", "parse"]
+__all__ = ["COMMANDS", "Request", "parse", "parser_for"]
 
 COMMANDS = {
     "list": "list the methods: family, order, stages, source",
@@ -86,9 +86,8 @@ def parse(words: Sequence[str]) -> Request:
     if not words:
         names = (*_families(), *COMMANDS)
         raise ValueError(f"no command is given; {_alternatives(names)} is accepted.")
-    families = {} if words[0] in COMMANDS else _families(words[0])
-    known = _parser(words, families).parse_args(words)
-    family = families.get(known.command)
+    known = parser_for(words).parse_args(words)
+    family = getattr(known, "family", None)
     if family is not None:
         options = FamilyOptions(family).options(known)
     elif known.command in _OPTIONS:
@@ -120,14 +119,16 @@ def _families(word: str = "") -> dict[str, Family]:
     return {family.comparison.command: family for family in FAMILIES}
 
 
-def _parser(words: Sequence[str], families: dict[str, Family]) -> Parser:
-    """The parser of a command line; what takes time to import is left out where the words do not need it."""
+def parser_for(words: Sequence[str]) -> Parser:
+    """The parser of a command line; what takes time to import is left out where its words do not need it."""
+    families = {} if words[0] in COMMANDS else _families(words[0])
     parser = Parser(prog="python -m compare", description="Score integrators.", epilog=_EPILOG)
     commands = parser.add_subparsers(dest="command", metavar="COMMAND")
     for command, family in families.items():
         told = family.comparison.help
         one = commands.add_parser(command, help=told, description=told, epilog=_EPILOG)
         FamilyOptions(family).add_options(one)
+        one.set_defaults(family=family)
     for command, told in COMMANDS.items():
         epilog = _MISTAKE if command in _WITHOUT_NUMBERS else _EPILOG
         one = commands.add_parser(command, help=told, description=told, epilog=epilog)

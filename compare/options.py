@@ -50,7 +50,9 @@ def inputs_offered(families: Sequence[Family], parser: argparse.ArgumentParser) 
                 default = f" (default {default})" if default else ""
                 offered[name] = f"{wanted.help}{units}{default}{'; may repeat' if varies else ''}"
                 metavar = "X,Y" if wanted.kind == "pair" else "A,B" if varies else name.upper()
-                parser.add_argument(f"--{name}", action="append", metavar=metavar, help=offered[name])
+                parser.add_argument(
+                    f"--{name}", action="append", metavar=metavar, help=offered[name].replace("%", "%%")
+                )
 
 
 def _typed(value: Any) -> str:

@@ -9,14 +9,21 @@ from reference.version import __version__
 
 if TYPE_CHECKING:
     import os
+    from collections.abc import Sequence
 
     from reference.certified import Certified
     from reference.dataset.reader import Dataset
-    from reference.problems.cycloid import Cycloid, CycloidalPendulum, CycloidArc, Tautochrone
-    from reference.problems.descent import Descent
-    from reference.problems.pendulum import LinearPendulum, Pendulum
-    from reference.problems.polar import PolarBrachistochrone
-    from reference.problems.tunnel import Tunnel
+    from reference.declaration import StateSpace
+    from reference.family import Family
+    from reference.problem import HamiltonianProblem, Problem, SeparableProblem
+    from reference.problems.cycloid.arc import CycloidArc
+    from reference.problems.cycloid.problem import Cycloid
+    from reference.problems.cycloid.tautochrone import CycloidalPendulum, Tautochrone
+    from reference.problems.descent.problem import Descent
+    from reference.problems.pendulum.linear import LinearPendulum
+    from reference.problems.pendulum.problem import Pendulum
+    from reference.problems.polar.problem import PolarBrachistochrone
+    from reference.problems.tunnel.problem import Tunnel
 
 __all__ = [
     "Certified",
@@ -24,9 +31,14 @@ __all__ = [
     "CycloidArc",
     "CycloidalPendulum",
     "Descent",
+    "Family",
+    "HamiltonianProblem",
     "LinearPendulum",
     "Pendulum",
     "PolarBrachistochrone",
+    "Problem",
+    "SeparableProblem",
+    "StateSpace",
     "Tautochrone",
     "Tunnel",
     "__version__",
@@ -35,15 +47,20 @@ __all__ = [
 
 _HOMES = {
     "Certified": "reference.certified",
-    "Cycloid": "reference.problems.cycloid",
-    "CycloidArc": "reference.problems.cycloid",
-    "CycloidalPendulum": "reference.problems.cycloid",
-    "Descent": "reference.problems.descent",
-    "LinearPendulum": "reference.problems.pendulum",
-    "Pendulum": "reference.problems.pendulum",
-    "PolarBrachistochrone": "reference.problems.polar",
-    "Tautochrone": "reference.problems.cycloid",
-    "Tunnel": "reference.problems.tunnel",
+    "Cycloid": "reference.problems.cycloid.problem",
+    "CycloidArc": "reference.problems.cycloid.arc",
+    "CycloidalPendulum": "reference.problems.cycloid.tautochrone",
+    "Descent": "reference.problems.descent.problem",
+    "Family": "reference.family",
+    "HamiltonianProblem": "reference.problem",
+    "LinearPendulum": "reference.problems.pendulum.linear",
+    "Pendulum": "reference.problems.pendulum.problem",
+    "PolarBrachistochrone": "reference.problems.polar.problem",
+    "Problem": "reference.problem",
+    "SeparableProblem": "reference.problem",
+    "StateSpace": "reference.declaration",
+    "Tautochrone": "reference.problems.cycloid.tautochrone",
+    "Tunnel": "reference.problems.tunnel.problem",
 }
 
 
@@ -54,15 +71,20 @@ def __getattr__(name: str) -> Any:
     raise AttributeError(f"module 'reference' has no attribute {name!r}")
 
 
-def load(path: str | os.PathLike[str] | None = None) -> Dataset:
+def load(path: str | os.PathLike[str] | None = None, families: Sequence[Family | str] = ()) -> Dataset:
     """Check a dataset and return it; without a path, the core dataset that ships with the package.
+
+    A file with groups of families that are not ours is read with these, each a Family, or its name as MODULE:NAME or
+    FILE.py:NAME.
 
     ``load()["pendulum/libration/period"]`` has ``value`` (float64), ``tail`` (its next two limbs) and ``units``.
 
     Raises:
         FileNotFoundError: there is no such file; the message says how to build it.
         DatasetError: a ValueError: the file is truncated, altered, of another schema, or no dataset.
+        ValueError, ImportError: there is no such family, or its module cannot be imported.
+        TypeError: ``path`` is no path, or ``families`` hold something else.
     """
     from reference.dataset.reader import load as load_checked
 
-    return load_checked(path)
+    return load_checked(path, families)

@@ -9,18 +9,23 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from reference.command.terminal import Parser, one_of, progress_bar, run
-from reference.dataset.cite import FORMATS as CITE_FORMATS
 from reference.names import short
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from reference.dataset.plan import Plan
+
 FORMATS = ("text", "json")
+CITATIONS = ("bibtex", "text")
+GIVEN = "given_"
+"""Before the names of a family's inputs, which are its own to choose."""
 
 
 def command(arguments: Sequence[str] | None = None) -> int:
     """Parse the arguments, run the command they name, return its exit code."""
-    asked = _parser().parse_args(arguments)
+    words = sys.argv[1:] if arguments is None else list(arguments)
+    asked = _parser(words).parse_args(words)
     return int(asked.run(asked))
 
 
@@ -29,35 +34,38 @@ def main(arguments: Sequence[str] | None = None) -> int:
     return run(command, arguments)
 
 
-def _parser() -> Parser:
-    from reference.dataset.catalogue import PROFILES
-
+def _parser(words: Sequence[str]) -> Parser:
     parser = Parser(prog="python -m reference", description="Reference values, proven correctly rounded.")
     commands = parser.add_subparsers(dest="command", metavar="COMMAND", required=True, parser_class=Parser)
     build = commands.add_parser("build", help="prove the values of a profile and write them as a dataset")
     build.add_argument("--out", metavar="FILE", help="the file to write (default: the core dataset's place)")
     numbers = build.add_mutually_exclusive_group()
-    numbers.add_argument("--profile", type=one_of("profile", tuple(PROFILES)), default="core", help="core or full")
+    numbers.add_argument("--profile", default="core", help="core or full")
     numbers.add_argument("--config", metavar="FILE.toml", help="groups, parameters and numbers of your own")
+    _add_families(build, "the groups of this family alone, or in FILE.toml also its groups")
     _add_workers(build)
     build.set_defaults(run=_build)
     verify = commands.add_parser("verify", help="check a dataset and prove its values again")
     verify.add_argument("file", metavar="FILE")
+    _add_families(verify)
     _add_workers(verify)
     verify.set_defaults(run=_verify)
     show = commands.add_parser("show", help="print a dataset's tree, or one variable with its values")
     show.add_argument("file", metavar="FILE")
     show.add_argument("path", metavar="PATH", nargs="?", help="a group or variable, such as pendulum/libration/period")
     show.add_argument("--format", type=one_of("format", FORMATS), default="text", help="text or json")
+    _add_families(show)
     show.set_defaults(run=_show)
-    _add_at(commands)
+    _add_at(commands, words)
     cite = commands.add_parser("cite", help="print how to cite the dataset, with version and fingerprint")
     cite.add_argument("file", metavar="FILE", nargs="?", help="default: the core dataset")
-    cite.add_argument("--format", type=one_of("format", CITE_FORMATS), default="bibtex", help="bibtex or text")
+    cite.add_argument("--format", type=one_of("format", CITATIONS), default="bibtex", help="bibtex or text")
+    _add_families(cite)
     cite.set_defaults(run=_cite)
     datasheet = commands.add_parser("datasheet", help="print the datasheet of a dataset, in Markdown")
     datasheet.add_argument("file", metavar="FILE", nargs="?", help="default: the core dataset")
     datasheet.add_argument("group", metavar="GROUP", nargs="?", help="one group's page, such as pendulum/libration")
+    _add_families(datasheet)
     datasheet.set_defaults(run=_datasheet)
     return parser
 
@@ -74,22 +82,32 @@ def _add_workers(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--quiet", action="store_true", help="no progress bar, no summary")
 
 
-def _add_at(commands: argparse._SubParsersAction[Parser]) -> None:
-    from reference.command.at import METAVARS
-    from reference.problems.families import FAMILIES
+def _add_families(parser: argparse.ArgumentParser, told: str = "a family of your own that it has groups of") -> None:
+    where = "MODULE:NAME or FILE.py:NAME; may repeat"
+    parser.add_argument("--family", action="append", default=[], metavar="NAME", help=f"{told}: {where}")
 
+
+def _add_at(commands: argparse._SubParsersAction[Parser], words: Sequence[str]) -> None:
+    from reference.command.at import METAVARS
+    from reference.problems.families import FAMILIES, find_family
+
+    own = next((word for word in words[1:2] if words[0] == "at" and ":" in word), None)
+    known = {family.name: family for family in FAMILIES} if own is None else {own: find_family(own)}
     at = commands.add_parser("at", help="print proven values at one time, now")
     families = at.add_subparsers(dest="family", metavar="FAMILY", required=True, parser_class=Parser)
-    for family in FAMILIES:
-        parser = families.add_parser(family.name, help=family.help)
+    for name, family in known.items():
+        parser = families.add_parser(name, help=family.help)
         for asked in family.inputs:
             default = "" if asked.default is None else f" (default: {asked.default})"
             parser.add_argument(
                 f"--{asked.name}",
+                dest=GIVEN + asked.name,
                 required=asked.default is None and not asked.optional,
                 default=asked.default,
                 metavar=METAVARS[asked.kind],
-                help=f"{asked.help}, in {asked.units}{default}" if asked.units else f"{asked.help}{default}",
+                help=(f"{asked.help}, in {asked.units}{default}" if asked.units else f"{asked.help}{default}").replace(
+                    "%", "%%"
+                ),
             )
         parser.add_argument("--digits", default="50", metavar="N", help="significant digits (default: 50)")
         parser.add_argument("--exact", action="store_true", help="take decimals and fractions as written")
@@ -103,7 +121,7 @@ def _at(asked: argparse.Namespace) -> int:
 
     family = asked.known_as
     digits = at.digits_count(asked.digits)
-    given = {wanted: getattr(asked, wanted.name) for wanted in family.inputs}
+    given = {wanted: getattr(asked, GIVEN + wanted.name) for wanted in family.inputs}
     inputs = {
         wanted.name: at.read(wanted, text, as_written=asked.exact) for wanted, text in given.items() if text is not None
     }
@@ -120,8 +138,8 @@ def _build(asked: argparse.Namespace) -> int:
     from reference.dataset.catalogue import plan
     from reference.dataset.grids import plan_from
 
-    wanted = plan(asked.profile) if asked.config is None else plan_from(asked.config)
-    out = _default_out(wanted.profile) if asked.out is None else asked.out
+    wanted = plan(asked.profile, asked.family) if asked.config is None else plan_from(asked.config, asked.family)
+    out = _default_out(wanted) if asked.out is None else asked.out
     if asked.config is not None and os.path.realpath(asked.config) == os.path.realpath(out):
         raise ValueError(f"the output '{out}' is the grid file itself; choose another output path.")
     with progress_bar("proving", quiet=asked.quiet) as progress:
@@ -131,21 +149,28 @@ def _build(asked: argparse.Namespace) -> int:
     return 0
 
 
-def _default_out(profile: str) -> Path:
+def _default_out(plan: Plan) -> Path:
     """The place of the shipped file for the core profile in a checkout, else the working folder."""
     from reference.dataset.reader import core_path
 
     checkout = Path(__file__).resolve().parents[1]
-    if profile == "core" and (checkout / "pyproject.toml").exists() and (checkout / "data").is_dir():
+    if (
+        plan.profile == "core"
+        and not plan.families
+        and (checkout / "pyproject.toml").exists()
+        and (checkout / "data").is_dir()
+    ):
         return core_path()
-    return Path(f"horologium-{profile.removesuffix('.toml')}.h5")
+    own = () if plan.profile.endswith(".toml") else plan.families
+    families = "".join(f"-{family.rpartition(':')[2].lower()}" for family in own)
+    return Path(f"horologium-{plan.profile.removesuffix('.toml')}{families}.h5")
 
 
 def _verify(asked: argparse.Namespace) -> int:
     from reference.dataset.verify import verify
 
     with progress_bar("proving again", quiet=asked.quiet) as progress:
-        proofs = verify(asked.file, jobs=asked.jobs, executor=asked.executor, progress=progress)
+        proofs = verify(asked.file, families=asked.family, jobs=asked.jobs, executor=asked.executor, progress=progress)
     for proof in proofs:
         if not (asked.quiet and proof.holds):
             print(proof)
@@ -159,7 +184,7 @@ def _show(asked: argparse.Namespace) -> int:
     from reference.dataset.reader import load
     from reference.dataset.show import show
 
-    for line in show(load(asked.file), asked.path, asked.format):
+    for line in show(load(asked.file, asked.family), asked.path, asked.format):
         print(line)
     return 0
 
@@ -168,7 +193,7 @@ def _cite(asked: argparse.Namespace) -> int:
     from reference.dataset.cite import cite
     from reference.dataset.reader import load
 
-    print(cite(load(asked.file), asked.format))
+    print(cite(load(asked.file, asked.family), asked.format))
     return 0
 
 
@@ -176,7 +201,7 @@ def _datasheet(asked: argparse.Namespace) -> int:
     from reference.dataset.datasheet import datasheet
     from reference.dataset.reader import load
 
-    print(datasheet(load(asked.file), asked.group), end="")
+    print(datasheet(load(asked.file, asked.family), asked.group), end="")
     return 0
 
 

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Literal
 
 from reference.arithmetic.exact import as_number, exact
+from reference.names import each_once, short, unknown
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -182,6 +183,9 @@ class Family:
         reported: what a report shows of it.
         layouts: the groups that a dataset can hold of it.
         core, full: the groups of the two profiles, with their numbers.
+
+    Raises:
+        ValueError: the declaration contradicts itself, or lacks something.
     """
 
     name: str
@@ -194,6 +198,17 @@ class Family:
     layouts: tuple[Layout, ...] = ()
     core: Callable[[], tuple[Group, ...]] = no_groups
     full: Callable[[], tuple[Group, ...]] = no_groups
+
+    def __post_init__(self) -> None:
+        names = [asked.name for asked in self.inputs]
+        each_once(f"the family {short(self.name)}", names)
+        for name in (self.comparison.varied, *self.comparison.inputs):
+            if name not in names:
+                raise ValueError(unknown(f"the input of the comparison of {short(self.name)},", name, names))
+        for layout in self.layouts:
+            if not (layout.statement and layout.difficulty):
+                lacking = "difficulty" if layout.statement else "statement"
+                raise ValueError(f"the group {layout.path} of {short(self.name)} does not declare its {lacking}.")
 
     def input(self, name: str) -> Input:
         """The input of this name."""

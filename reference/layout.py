@@ -6,25 +6,32 @@ on its coordinates; a block is a stretch of one of its rows.
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
-from reference.arithmetic.binary64 import unsigned_zeros
 from reference.arithmetic.exact import exact
+from reference.names import each_once, short
 from reference.once import cached_property
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator, Mapping
+    from collections.abc import Callable, Iterable, Iterator, Mapping
+
+    import numpy as np
 
     from reference.declaration import Quantity, Row
     from reference.problem import Problem
 
-__all__ = ["BLOCK_LENGTH", "Block", "Component", "Coordinate", "Group", "Layout"]
+__all__ = ["BLOCK_LENGTH", "Block", "Component", "Coordinate", "Group", "Layout", "parts"]
 
 BLOCK_LENGTH = 2048
 """Times in one block: the unit of work, of resuming and of storage, and so the bound on memory."""
+PATH = re.compile(r"(/[A-Za-z][A-Za-z0-9_-]*)+")
+
+
+def parts(numbers: Iterable[int], whole: int) -> list[float]:
+    """Numbers along an axis as parts of a whole: each k/whole, rounded once."""
+    return [k / whole for k in numbers]
 
 
 @dataclass(frozen=True)
@@ -48,9 +55,9 @@ class Coordinate:
     meanings: tuple[str, ...] = ()
 
     @property
-    def dtype(self) -> np.dtype[Any]:
-        """Little-endian int32 for labels, float64 otherwise."""
-        return np.dtype("<i4" if self.whole or self.meanings else "<f8")
+    def dtype(self) -> str:
+        """Little-endian int32 for labels, float64 otherwise, as NumPy spells them."""
+        return "<i4" if self.whole or self.meanings else "<f8"
 
 
 @dataclass(frozen=True)
@@ -80,6 +87,9 @@ class Layout:
         statement: the problem in one line: its equation and its start.
         difficulty: how hard it is on an integrator, "lower", "average" or "higher", and why.
         index: labels 0, 1, 2, ... of instances that are in no order by any one of their inputs, as points in a plane.
+
+    Raises:
+        ValueError: the path or a name cannot stand in a file, a name is there twice, or a row has no coordinate.
     """
 
     path: str
@@ -93,6 +103,15 @@ class Layout:
     statement: str = ""
     difficulty: str = ""
     index: Coordinate | None = None
+
+    def __post_init__(self) -> None:
+        if not PATH.fullmatch(self.path):
+            raise ValueError(f"the group's path is '{short(self.path)}'; one such as /pendulum/libration is accepted.")
+        for row in self.rows:
+            if row.over not in {"once", *self.over}:
+                raise ValueError(f"{self.path} has the row {row.name} over '{row.over}', and no coordinate for that.")
+        values = [name for row in self.rows for one in row.quantities for name in (one.name, f"{one.name}_tail")]
+        each_once(self.path, [*(one.name for one in (*self.coordinates, *self.parameters)), *values])
 
     @property
     def first(self) -> tuple[Coordinate, ...]:
@@ -201,6 +220,8 @@ class Group:
     taylor_elements: int | None = None
 
     def __post_init__(self) -> None:
+        from reference.arithmetic.arrays import np, unsigned_zeros
+
         wanted = {coordinate.name: coordinate for coordinate in self.layout.given}
         index = "" if self.layout.index is None else self.layout.index.name
         parameters = {parameter.name for parameter in self.layout.parameters}
@@ -221,6 +242,8 @@ class Group:
 
     def _counted(self, index: Coordinate, count: int) -> dict[str, np.ndarray]:
         """The index 0, 1, 2, ..., which may have been given as that and nothing else."""
+        from reference.arithmetic.arrays import np
+
         counted = np.arange(count, dtype=index.dtype)
         if not np.array_equal(self.inputs.get(index.name, counted), counted):
             raise ValueError(f"{self.layout.path}/{index.name} counts its elements 0, 1, 2, ...; it cannot be chosen.")
@@ -243,6 +266,8 @@ class Group:
 
     def _stretches(self, row: Row) -> Iterator[tuple[int, np.ndarray]]:
         if row.over == "once":
+            from reference.arithmetic.arrays import np
+
             yield 0, np.empty(0)
             return
         values = self.inputs[self.layout.over[row.over].name]

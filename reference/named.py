@@ -57,6 +57,11 @@ def _file(path: Path) -> ModuleType:
     spec = importlib.util.spec_from_file_location(path.stem, path)
     if spec is None or spec.loader is None:
         raise ImportError(f"'{path}' is no Python file.")
+    known = sys.modules.get(spec.name)
+    if known is not None and Path(getattr(known, "__file__", None) or "").resolve() != path.resolve():
+        raise ImportError(
+            f"'{path}' has the name of the module {spec.name}, which is in use; another name is accepted."
+        )
     module = importlib.util.module_from_spec(spec)
     sys.modules[spec.name] = module  # where its classes look for themselves
     with _from_here(path.resolve().parent), _excuses(str(path)):

@@ -9,9 +9,9 @@ from reprlib import repr as abridged
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Iterator
+    from collections.abc import Callable, Iterable, Iterator, Sequence
 
-__all__ = ["in_one_sentence", "is_grid_file", "printable", "said", "short", "unknown"]
+__all__ = ["NAME_LENGTH", "each_once", "in_one_sentence", "is_grid_file", "printable", "said", "short", "unknown"]
 
 SHOWN = 12
 MANY_BITS = 1000
@@ -20,12 +20,24 @@ SIMPLE = (Number, str, bytes)
 LENGTH = 60
 """Characters up to which a text that was given is repeated whole."""
 NAME_LENGTH = 255
-"""Characters of a grid file's name."""
+"""Characters of the name of a grid file, or of a family."""
 
 
 def is_grid_file(name: str) -> bool:
     """Whether a profile is the name of a grid file: NAME.toml, of printable characters."""
     return name.endswith(".toml") and name.isprintable() and len(name) <= NAME_LENGTH
+
+
+def each_once(what: str, names: Sequence[str]) -> None:
+    """Refuse names that are none in Python, or that are there twice.
+
+    Raises:
+        ValueError: one is such; ``what`` is where they stand, in words.
+    """
+    for name in names:
+        if not name.isidentifier() or names.count(name) > 1:
+            wrong = f"{names.count(name)} times" if name.isidentifier() else "which is no name in Python"
+            raise ValueError(f"{what} has '{short(name)}', {wrong}; a name once is accepted.")
 
 
 def printable(text: str) -> str:

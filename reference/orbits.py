@@ -1,4 +1,4 @@
-"""Where a state is: the phase and the amplitude of the orbit through it."""
+"""Action–angle variables: the amplitude of the orbit through a state, and the phase of the state on it."""
 
 from __future__ import annotations
 
@@ -13,11 +13,11 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
     from fractions import Fraction
 
-__all__ = ["NOWHERE", "Harmonic", "Orbits", "Place", "apart"]
+__all__ = ["NOWHERE", "HarmonicOrbits", "Orbits", "Place", "apart"]
 
 
 class Place(NamedTuple):
-    """A phase in periods, and an amplitude in the units of the position; None where the orbit has none."""
+    """Phase (the angle variable) in periods, amplitude in the units of the position; None where the orbit has none."""
 
     phase: arb | None
     amplitude: arb | None
@@ -31,14 +31,14 @@ class Orbits(Protocol):
     """The exact orbits of a problem, at the precision in force when it is made."""
 
     def truth(self, t: Fraction) -> Place:
-        """The place of the exact motion at t."""
+        """Phase and amplitude of the exact motion at t."""
 
     def place(self, y: Sequence[arb]) -> Place:
-        """The place of any state on the orbit through it, if that is of the exact motion's kind."""
+        """Phase and amplitude of any state on the orbit through it, if that is of the exact motion's kind."""
 
 
 def apart(here: Place, true: Place) -> tuple[float, float]:
-    """The errors of phase, in rad from -pi to pi, and of amplitude; NaN where one of the places has none."""
+    """The errors of phase, in rad from -pi to pi, and of amplitude; NaN where one of the two states has none."""
     phase = amplitude = math.nan
     if here.phase is not None and true.phase is not None:
         periods = here.phase - true.phase
@@ -48,7 +48,7 @@ def apart(here: Place, true: Place) -> tuple[float, float]:
     return phase, amplitude
 
 
-class Harmonic:
+class HarmonicOrbits:
     """x'' = -w^2 x with x the first of the state less ``centre``: amplitude sqrt(x^2 + (x'/w)^2)."""
 
     def __init__(self, start: Sequence[Fraction], w: arb, centre: arb | None = None) -> None:
@@ -56,7 +56,7 @@ class Harmonic:
         self._start = self.place([BALL.number(value) for value in start])
 
     def truth(self, t: Fraction) -> Place:
-        """The start's place, and w t/(2 pi) periods later."""
+        """The start's phase, w t/(2 pi) periods later."""
         phase = self._start.phase
         later = None if phase is None else phase + BALL.number(t) * self.w / (2 * arb.pi())
         return Place(later, self._start.amplitude)

@@ -5,9 +5,8 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, fields
 from fractions import Fraction
-from typing import TYPE_CHECKING, Any, ClassVar
-
-import numpy as np
+from functools import wraps
+from typing import TYPE_CHECKING, Any, ClassVar, TypeVar
 
 from reference.arithmetic.dual import Dual, DualArithmetic
 from reference.arithmetic.exact import exact_array, positive
@@ -17,18 +16,21 @@ from reference.arithmetic.precision import mp
 from reference.certified import Certified
 from reference.names import unknown
 from reference.once import cached_property
-from reference.routes import enclosure, quadrature
+from reference.routes import enclosure, quadrature, taylor
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
+    from collections.abc import Callable, Mapping, Sequence
+
+    import numpy as np
 
     from reference.arithmetic.protocols import Arithmetic
     from reference.constants import Constant
     from reference.declaration import ClosedForm, Form, Invariant, Row, Solution, StateSpace, Trial
     from reference.orbits import Orbits
     from reference.row_domains import Domain
+    from reference.state_bounds import StateBounds
 
-__all__ = ["APART", "HamiltonianProblem", "Problem", "SeparableProblem"]
+__all__ = ["APART", "HamiltonianProblem", "Problem", "SeparableProblem", "UndeclaredError"]
 
 TAYLOR_BITS = 1024
 """The Taylor route serves what needs at most this working precision."""
@@ -40,26 +42,74 @@ ROUTE_BITS = 8192
 """No route but the enclosure serves what needs more working precision than this."""
 
 
+class UndeclaredError(NotImplementedError, AttributeError):
+    """Something is asked of a problem that it does not declare; the sentence names both."""
+
+    @classmethod
+    def of(cls, problem: type, lacking: str, words: str) -> UndeclaredError:
+        """The error of a class of problems that lacks what has this name, and what that is, in words."""
+        name = next((vars(one)["name"] for one in problem.__mro__ if "name" in vars(one)), None)
+        told = f", the problem '{name}'," if isinstance(name, str) else ""
+        return cls(f"{problem.__name__}{told} does not declare '{lacking}'{': ' * bool(words)}{words}.")
+
+
+class Required:
+    """In the place of a class variable without which a problem is none; it says in words what that is."""
+
+    def __init__(self, words: str) -> None:
+        self._words, self._name = words, ""
+
+    def __set_name__(self, owner: type, name: str) -> None:
+        self._name = name
+
+    def __get__(self, problem: Any, owner: type) -> Any:
+        raise UndeclaredError.of(owner, self._name, self._words)
+
+
+def required(words: str) -> Any:
+    """A class variable that each problem declares."""
+    return Required(words)
+
+
+Method = TypeVar("Method", bound="Callable[..., Any]")
+
+
+def declared(method: Method) -> Method:
+    """A method that each problem declares of which it is asked: this one says so, by its name and its first line."""
+
+    @wraps(method)
+    def lacking(problem: Any, *_arguments: Any, **_named: Any) -> Any:
+        words = (method.__doc__ or "").partition("\n")[0].rstrip(".").replace("``", "")
+        of = problem if isinstance(problem, type) else type(problem)
+        raise UndeclaredError.of(of, method.__name__, words[:1].lower() + words[1:])
+
+    return lacking  # type: ignore[return-value]
+
+
 @dataclass(frozen=True)
 class Problem:
     """A system of ordinary differential equations with exact parameters and a proven solution."""
 
-    name: ClassVar[str]
-    rows: ClassVar[tuple[Row, ...]]
-    space: ClassVar[StateSpace]
-    invariants: ClassVar[tuple[Invariant, ...]]
-    trial: ClassVar[Trial]
+    name: ClassVar[str] = required("what it is called")
+    rows: ClassVar[tuple[Row, ...]] = required("the rows of values that can be asked of it")
+    space: ClassVar[StateSpace] = required("how its state is read")
+    invariants: ClassVar[tuple[Invariant, ...]] = required("what every exact motion conserves, () where it is nothing")
+    trial: ClassVar[Trial] = required("where a compiled step is tried")
     form: ClassVar[Form | None] = None
     """Which form of its family's equations this is; None where there is one."""
+    by_flow: ClassVar[Mapping[str, taylor.Reading]] = {"state": taylor.Along()}
+    """How the Taylor route reads each row of a flow; a row that it cannot give says why in its ``lacks``."""
     max_bits: ClassVar[int] = MAX_BITS
     """Working precision at which a proof is given up: lower where a value takes an integral."""
 
     @property
+    @declared
     def parameters(self) -> dict[str, Fraction]:
         """The exact parameters by name."""
         raise NotImplementedError
 
     @property
+    @declared
     def start(self) -> tuple[Fraction, ...]:
         """The exact initial state."""
         raise NotImplementedError
@@ -73,10 +123,11 @@ class Problem:
     def equation(self) -> str:
         """The equation of motion in one line, with its start."""
         if self.form is None:
-            raise NotImplementedError
+            raise UndeclaredError.of(type(self), "equation", "the equation of motion in one line, with its start")
         return self.form.equation
 
     @property
+    @declared
     def inputs(self) -> dict[str, tuple[Any, str]]:
         """What tells the problem from others of its family: numbers or names, and their units, by name."""
         raise NotImplementedError
@@ -89,10 +140,12 @@ class Problem:
     autonomous: ClassVar[bool] = True
     """Whether the equation is without the time."""
 
+    @declared
     def derivative(self, m: Arithmetic, t: Any, y: Sequence[Any], p: dict[str, Any]) -> tuple[Any, ...]:
         """dy/dt as a function of the time, the state and the parameters, in any arithmetic."""
         raise NotImplementedError
 
+    @declared
     def invariant(self, m: Arithmetic, y: Sequence[Any], p: dict[str, Any]) -> Any:
         """The first of the invariants, in any arithmetic; for an energy with a rest, what it is above that.
 
@@ -100,6 +153,7 @@ class Problem:
         """
         raise NotImplementedError
 
+    @declared
     def kinetic(self, m: Arithmetic, y: Sequence[Any], p: dict[str, Any]) -> Any:
         """The kinetic energy, by which the drift of an invariant is told that may be zero."""
         raise NotImplementedError
@@ -137,6 +191,10 @@ class Problem:
         """What of phase and amplitude the exact motion lacks, in a sentence; "" where it has both."""
         return f"Phase and amplitude are not defined for the problem {self.name}."
 
+    def state_bounds(self) -> StateBounds | None:
+        """What bounds many of its states in doubles, to spare their proofs; None where nothing does."""
+        return None
+
     event_words: ClassVar[str] = "events"
     """What the events of ``passages`` are called."""
 
@@ -145,6 +203,7 @@ class Problem:
         del until
         return None
 
+    @declared
     def event(self, m: Arithmetic, y: Sequence[Any]) -> Any:
         """Zero at the events of ``passages``, in any arithmetic."""
         raise NotImplementedError
@@ -154,6 +213,8 @@ class Problem:
 
         Of itself the largest eigenvalue of df/dy at some states of the exact motion; a family may know a bound.
         """
+        from reference.arithmetic.arrays import np
+
         period = self.cycle()
         end = Fraction(period) if math.isfinite(period) else Fraction(SEEN)
         times = [end * Fraction(k, STATES) for k in range(STATES + 1)]
@@ -185,6 +246,7 @@ class Problem:
                 return type(self)(**given)
         raise ValueError(f"{self!r} has no input to be moved; a problem that declares its neighbour is accepted.")
 
+    @declared
     def closed_form(self, m: Any) -> ClosedForm:
         """The solution in one arithmetic with elliptic functions."""
         raise NotImplementedError
@@ -199,13 +261,16 @@ class Problem:
         return self.closed_form(MPMATH)
 
     def taylor_form(self, bits: int) -> Solution:
-        """The solution by heyoka's Taylor method in MPFR arithmetic of ``bits`` bits."""
-        raise NotImplementedError
+        """The solution by heyoka's Taylor method in MPFR arithmetic of ``bits`` bits, as ``by_flow`` declares it."""
+        return taylor.taylor_route(self, bits)
 
     def within_taylor(self, row: str, arguments: Sequence[Any]) -> bool:
-        """Whether the Taylor route reaches all of these arguments in bounded work."""
-        del row, arguments
-        return True
+        """Whether the Taylor route reaches all of these arguments in bounded work.
+
+        Here of a row along the flow of the equation itself or of its events: no time is negative, and none is so late
+        that the flow takes more than ``taylor.STEPS`` steps.
+        """
+        return taylor.reaches(self, row, arguments)
 
     def exact_row(self, row: str, argument: Any) -> tuple[Fraction | None, ...] | None:
         """The values of a row that are exactly rational, which no ball could decide; None for those that are not.
@@ -283,6 +348,8 @@ class Problem:
 
     def values(self, row: str, arguments: Sequence[Any], count: int) -> np.ndarray:
         """The correctly rounded limbs of a row: float64 of shape (arguments, quantities, count)."""
+        from reference.arithmetic.arrays import np
+
         found = enclosure.decide(
             self,
             row,
@@ -306,6 +373,7 @@ class Problem:
         Raises:
             ValueError: ``t`` is empty, not finite or out of range, or ``limbs`` is not an integer from 1 to MAX_LIMBS.
             WorkBoundError: a value could not be decided within the bound on the working precision.
+            ModuleNotFoundError: NumPy is not installed; ``certified`` does without.
         """
         return self.along("state", t, limbs)
 
@@ -318,6 +386,7 @@ class Problem:
                 MAX_LIMBS.
             TypeError: ``arguments`` holds what is no real number.
             WorkBoundError: a value could not be decided within the bound on the working precision.
+            ModuleNotFoundError: NumPy is not installed; ``certified`` does without.
         """
         asked, limbs = self.row(row), positive(limbs, "limbs", MAX_LIMBS)
         once: tuple[list[Any], tuple[int, ...]] = [arguments], ()
@@ -340,13 +409,15 @@ class SeparableProblem(Problem):
         found = self.velocity(NUMPY, list(map(float, trial)), {n: float(v) for n, v in self.parameters.items()})
         return self.autonomous and list(found) == list(map(float, trial))
 
-    @staticmethod
-    def velocity(m: Arithmetic, momenta: Sequence[Any], p: dict[str, Any]) -> tuple[Any, ...]:
+    @classmethod
+    @declared
+    def velocity(cls, m: Arithmetic, momenta: Sequence[Any], p: dict[str, Any]) -> tuple[Any, ...]:
         """q' as a function of the momenta and the parameters."""
         raise NotImplementedError
 
-    @staticmethod
-    def force(m: Arithmetic, t: Any, positions: Sequence[Any], p: dict[str, Any]) -> tuple[Any, ...]:
+    @classmethod
+    @declared
+    def force(cls, m: Arithmetic, t: Any, positions: Sequence[Any], p: dict[str, Any]) -> tuple[Any, ...]:
         """p' as a function of the time, the positions and the parameters."""
         raise NotImplementedError
 
@@ -365,9 +436,9 @@ class HamiltonianProblem(Problem):
     and drifts; whether it does is seen at its slopes.
     """
 
+    @declared
     def hamiltonian(self, m: Arithmetic, t: Any, q: Sequence[Any], p: Sequence[Any], c: dict[str, Any]) -> Any:
         """H as a function of the time, the positions, their momenta and the parameters, in any arithmetic."""
-        raise NotImplementedError
 
     def _slopes(self, m: Any, t: Any, q: Sequence[Any], p: Sequence[Any], c: dict[str, Any]) -> list[Any]:
         """dH/dq, then dH/dp."""

@@ -41,12 +41,15 @@ def commands() -> list[str]:
 
 def subcommands(package: str) -> set[str]:
     """The names of a command line's commands, as argparse knows them."""
-    return set(_choices(_parser(package)))
+    return set(_choices(_parser([package])))
 
 
-def _parser(package: str) -> argparse.ArgumentParser:
-    home = {"reference": "reference.__main__", "compare": "compare.arguments"}[package]
-    return import_module(home)._parser()
+def _parser(words: list[str]) -> argparse.ArgumentParser:
+    """The parser that a command line comes to, by its package and the words after it."""
+    package, *rest = words
+    if package == "reference":
+        return import_module("reference.__main__")._parser(rest)
+    return import_module("compare.arguments").parser_for([*rest, "pendulum"])
 
 
 def _choices(parser: argparse.ArgumentParser) -> dict[str, argparse.ArgumentParser]:
@@ -56,7 +59,7 @@ def _choices(parser: argparse.ArgumentParser) -> dict[str, argparse.ArgumentPars
 
 def parser_of(words: list[str]) -> argparse.ArgumentParser:
     """The parser that reads the options of a command, found by walking down its subcommands."""
-    parser = _parser(words[0])
+    parser = _parser(words)
     for word in words[1:]:
         choices = _choices(parser)
         if not choices:
@@ -72,7 +75,8 @@ def run(arguments: list[str], **options) -> subprocess.CompletedProcess[str]:
 
 
 @pytest.mark.parametrize("path", DOCUMENTS, ids=id_of)
-def test_python_examples_give_what_they_show(path):
+def test_python_examples_give_what_they_show(path, monkeypatch):
+    monkeypatch.chdir(ROOT)
     assert doctest.testfile(str(path), module_relative=False, encoding="utf-8").failed == 0
 
 

@@ -7,9 +7,13 @@ import importlib
 import inspect
 import subprocess
 import sys
+from graphlib import CycleError, TopologicalSorter
 from pathlib import Path
 
 import pytest
+
+import reference
+from reference.problems.families import FAMILIES
 
 ROOT = Path(__file__).parents[1]
 PACKAGES = ("reference", "compare")
@@ -64,6 +68,17 @@ def test_only_the_dataset_knows_the_file_format(path):
         assert not {name for name in imports(path) if name.split(".")[0] == "h5py"}
 
 
+WRITERS = {"render.py": ("csv.writer", "DictWriter"), "text_table.py": ("toprule", "rjust", "textasciitilde")}
+"""What lays out tables, and the one module of compare/show that has it."""
+
+
+@pytest.mark.parametrize("path", [path for path in SOURCES if path.is_relative_to(ROOT / "compare")], ids=id_of)
+def test_tables_are_written_in_one_place(path):
+    text = path.read_text(encoding="utf-8")
+    for home, words in WRITERS.items():
+        assert path == ROOT / "compare" / "show" / home or not [word for word in words if word in text]
+
+
 @pytest.mark.parametrize("path", SOURCES, ids=id_of)
 def test_nothing_imports_the_tests(path):
     assert not {
@@ -89,11 +104,11 @@ def test_every_name_that_a_module_promises_is_there(name):
 
 
 LAYERS = (
-    ("reference.names", "reference.once", "reference.version"),
+    ("reference.names", "reference.once", "reference.packages", "reference.version"),
     ("reference.named",),
     ("reference.arithmetic",),
     ("reference.constants", "reference.row_domains", "compare.methods"),
-    ("reference.declaration", "reference.orbits"),
+    ("reference.declaration", "reference.orbits", "reference.state_bounds"),
     ("reference.routes",),
     ("reference.certified",),
     ("reference.problem",),
@@ -139,9 +154,49 @@ def test_a_room_imports_only_of_those_before_it(path):
         assert ROOMS[other] < ROOMS[room], f"{path} imports {other}"
 
 
+def test_no_modules_import_each_other_in_a_circle():
+    """Neither for annotations, nor within functions."""
+    known = set(MODULES)
+    graph = {module_name(path): (imports(path) & known) - {module_name(path)} for path in SOURCES}
+    try:
+        tuple(TopologicalSorter(graph).static_order())
+    except CycleError as error:
+        pytest.fail(" imports ".join(reversed(error.args[1])))
+
+
 @pytest.mark.parametrize("package", PACKAGES)
 def test_importing_a_package_leaves_the_slow_libraries_for_later(package):
     slow = "('matplotlib', 'xarray', 'h5py', 'scipy', 'rich')"
     code = f"import sys, {package}; print([name for name in {slow} if name in sys.modules])"
     done = subprocess.run([sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, check=True)
     assert done.stdout.strip() == "[]"
+
+
+FAMILY_NAMES = {word for family in FAMILIES for word in (family.name, family.comparison.command)}
+TO_SUBCLASS = {"Certified", "Family", "HamiltonianProblem", "Problem", "SeparableProblem", "StateSpace"}
+JUDGES = [path for path in SOURCES if path.is_relative_to(ROOT / "compare") and "sources" not in path.parts]
+
+
+@pytest.mark.parametrize("path", JUDGES, ids=id_of)
+def test_no_judge_names_a_family(path):
+    """What a score must know of a problem is declared by the problem: none asks for its name or its class."""
+    tree = ast.parse(path.read_text(encoding="utf-8"))
+    homes = {name for name in imports(path) if name.startswith("reference.problems.")}
+    assert {name for name in homes if not name.startswith("reference.problems.families")} == set()
+    classes = {name for name in reference.__all__ if name[0].isupper()} - {
+        "Certified",
+        "Family",
+        "Problem",
+        "StateSpace",
+    }
+    classes -= {"HamiltonianProblem", "SeparableProblem"}
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Name):
+            assert node.id not in classes, f"line {node.lineno} names {node.id}"
+        if isinstance(node, ast.Constant) and isinstance(node.value, str):
+            assert node.value not in FAMILY_NAMES, f"line {node.lineno} names {node.value}"
+        if isinstance(node, ast.Compare) and isinstance(node.left, ast.Attribute):
+            told = ast.unparse(node.left)
+            assert not told.endswith("problem.name"), f"line {node.lineno} asks for {told}"
+        if isinstance(node, ast.Call) and ast.unparse(node.func) == "getattr" and len(node.args) == 3:
+            assert "problem" not in ast.unparse(node.args[0]), f"line {node.lineno} reads a problem with a default"

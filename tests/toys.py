@@ -17,6 +17,7 @@ from reference.declaration import ClosedForm, Invariant, Quantity, Row, StateSpa
 from reference.family import Comparison, Family, Input, Reported
 from reference.layout import Coordinate, Group, Layout
 from reference.problem import HamiltonianProblem, SeparableProblem
+from reference.routes.taylor import Along, Period
 from reference.row_domains import ONCE, TIME
 
 if TYPE_CHECKING:
@@ -50,6 +51,7 @@ class Kepler(HamiltonianProblem):
         Invariant("angular momentum", ("Angular momentum", "(L - L0)/L0"), "start", "angular_momentum"),
     )
     trial: ClassVar[Trial] = Trial(states=((0.5, 1.0), (0.5, 1.0), (-1, 1), (-1, 1)), parameters={}, step=(0.001, 0.01))
+    by_flow: ClassVar[dict[str, Any]] = {"state": Along(), "period": Period(lambda _m, y: y[1], per_period=2)}
     rows: ClassVar[tuple[Row, ...]] = (
         Row(
             "state",
@@ -231,7 +233,14 @@ ELLIPSES = Layout(
     "(x, y)'' = -(x, y)/r^3",
     "average",
 )
-ANGLE = Coordinate("angle", "rad", "angle at the start")
+ANGLE = Coordinate("initial_angle", "rad", "angle at the start")
+
+
+def released(initial_angle: float) -> Forced:
+    """The oscillator from rest at an angle."""
+    return Forced(initial_angle)
+
+
 SECONDS = Coordinate("time", "s", "time since the start")
 BEATS = Layout(
     "/toy/forced",
@@ -240,7 +249,7 @@ BEATS = Layout(
     {"time": SECONDS},
     (),
     Forced.rows,
-    Forced,
+    released,
     "any textbook of mechanics",
     "angle'' = -angle + 2 cos(5 t/8)",
     "lower",
@@ -252,7 +261,7 @@ def ellipses() -> tuple[Group, ...]:
 
 
 def beats() -> tuple[Group, ...]:
-    return (Group(BEATS, {}, {"angle": (0.5, 1.0), "time": (0.5, 1.0, 7.25)}),)
+    return (Group(BEATS, {}, {"initial_angle": (0.5, 1.0), "time": (0.5, 1.0, 7.25)}),)
 
 
 KEPLER = Family(

@@ -24,9 +24,9 @@ from compare.claims.limits import SECONDS
 from compare.claims.order import ladder, measured
 from compare.claims.powers import lower, powers
 from compare.claims.record import Check
-from reference import Pendulum
 from reference.arithmetic.underflow import require_gradual
 from reference.problem import Problem
+from reference.problems.families import usual_problem
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -88,7 +88,7 @@ def check(
             curve, does not split as a separable step needs it, or depends on a time that the step does not give.
     """
     require_gradual("a check")
-    scene = Scene(Pendulum(1.0) if problem is None else _motion(problem))
+    scene = Scene(usual_problem() if problem is None else _motion(problem))
     if order is not None and not _is_order(order):
         raise ValueError(f"order is {order!r}; a positive number below {MOST_ORDER} is accepted.")
     candidate = Candidate(step, form_of(step, form), _name(step))

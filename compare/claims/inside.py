@@ -90,6 +90,7 @@ def _answer(line: _Line, request: dict[str, Any]) -> dict[str, Any]:
 
         from compare.claims import show
         from compare.claims.checking import check
+        from compare.show import render
 
         line.say({"stage": "ready"})
         found = check(**{**options, "step": step, **_problem(options.get("problem"))})
@@ -100,8 +101,7 @@ def _answer(line: _Line, request: dict[str, Any]) -> dict[str, Any]:
             raise  # a fault of the judge's own, of which the traceback says most
         name = options["step"].rpartition(":")[2]
         return {"left": f"{name} raised {type(error).__name__}"}
-    text = {"text": show.text, "json": show.json_text}[request["form"]](found)
-    return {"text": text, "code": EXIT_CODES[found.claims_hold]}
+    return {"text": render.render(show.page(found), request["form"]), "code": EXIT_CODES[found.claims_hold]}
 
 
 def _problem(asked: dict[str, Any] | None) -> dict[str, Any]:

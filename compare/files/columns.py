@@ -8,13 +8,13 @@ Units as tables name them: which are those of the truth, and by what others are 
 from __future__ import annotations
 
 import csv
-import io
 import re
 import shlex
 from dataclasses import dataclass
 from functools import cache
 from typing import TYPE_CHECKING, NamedTuple
 
+from compare.show.render import csv_text
 from reference.names import LENGTH, SHOWN, short
 
 if TYPE_CHECKING:
@@ -371,9 +371,7 @@ def typed(names: Sequence[str]) -> bool:
 
 def option(names: Sequence[str]) -> str:
     """``--columns`` with these names as a shell takes them."""
-    buffer = io.StringIO()
-    csv.writer(buffer, lineterminator="").writerow([short(name) for name in names])
-    return f"--columns {shlex.quote(buffer.getvalue())}"
+    return "--columns " + shlex.quote(csv_text([map(short, names)]).removesuffix("\n"))
 
 
 def asked_columns(text: str) -> tuple[str, ...]:

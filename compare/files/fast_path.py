@@ -17,12 +17,12 @@ from compare.files.scales import SLACK
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Mapping
 
-    from compare.files.bounds import Bounder, Bounds
     from compare.files.chunk import Chunk, Row
     from compare.files.crew import Crew
     from compare.files.judge import Judge
     from compare.files.record import Bar, Running
     from compare.files.scales import Point
+    from reference.state_bounds import Bounds, StateBounds
 
 __all__ = ["BoundError", "Sift"]
 
@@ -43,7 +43,7 @@ class Sift:
 
     def __init__(self, judge: Judge, running: Running, crew: Crew) -> None:
         self._judge, self._running, self._crew = judge, running, crew
-        self._bounder: Bounder | None = None
+        self._bounder: StateBounds | None = None
 
     def points(self, chunk: Chunk) -> Callable[[], list[Point]]:
         """Judge the rows of the next chunk that can matter; the first of a file always do, and all of a short one.
@@ -89,9 +89,7 @@ class Sift:
         if chunk.doubles is None:
             return None
         if self._bounder is None:
-            from compare.files.bounds import bounder
-
-            self._bounder = bounder(self._judge.problem)
+            self._bounder = self._judge.problem.state_bounds()
         if self._bounder is None:
             return None
         if not chunk.increases_from(self._judge.last):

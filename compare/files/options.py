@@ -10,6 +10,7 @@ from compare.files.lines import Passed
 from compare.show.render import FORMATS
 from reference.command.terminal import one_of
 from reference.names import short
+from reference.problems.families import USUAL
 
 if TYPE_CHECKING:
     import argparse
@@ -26,7 +27,7 @@ SETTINGS = ("file", "problem", "columns", "skip", "comment", "rows", "exact", "f
 def add_options(parser: argparse.ArgumentParser, families: Sequence[Family]) -> None:
     """Add them to a parser, the inputs of the families among them."""
     parser.add_argument("file", metavar="FILE", help="CSV, JSON, NPY, NPZ or HDF5; - reads text from standard input")
-    parser.add_argument("--problem", default="pendulum", metavar="NAME", help="family of problems (default pendulum)")
+    parser.add_argument("--problem", default=USUAL, metavar="NAME", help=f"family of problems (default {USUAL})")
     parser.add_argument("--columns", metavar="A,B,C", help="the file's names of the time and the state")
     parser.add_argument("--skip", metavar="N", help="lines of a text before its table begins")
     parser.add_argument("--comment", metavar="C", help="what begins a comment, besides #, %% and !")

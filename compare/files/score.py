@@ -25,9 +25,10 @@ from compare.files.hdf5 import hdf5_columns
 from compare.files.judge import CHUNK, Judge
 from compare.files.lines import NOTHING
 from compare.files.npz import npz_columns
-from compare.files.show import csv_header, csv_rows, rendered
+from compare.files.show import csv_header, csv_rows, page
 from compare.files.text import STANDARD_INPUT, TextRows
 from compare.files.written import of_value
+from compare.show.render import render
 from reference.arithmetic.exact import NO_SEQUENCES
 from reference.command import at
 from reference.names import unknown
@@ -219,7 +220,7 @@ def judged(asked: Submission, progress: Callable[[str], None] | None = None) -> 
             if progress is not None:
                 progress(f"{done} rows")
     if asked.form != "csv":
-        yield rendered(judge.score(running, rows.times, rows.notes), asked.form)
+        yield render(page(judge.score(running, rows.times, rows.notes)), asked.form)
 
 
 def _found(

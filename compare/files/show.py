@@ -1,16 +1,14 @@
-"""Judged rows as text, Markdown, LaTeX, JSON and CSV."""
+"""Judged rows as a page, and as CSV while they are judged."""
 
 from __future__ import annotations
 
-import csv
-import io
-import json
 import math
 import re
 from typing import TYPE_CHECKING, Any
 
-from compare.show import text_table
-from compare.show.text_table import Column, Grid, Section
+from compare.show.page import Lines, Page, Sentence, fields_of, in_lines
+from compare.show.render import csv_text
+from compare.show.text_table import Column, Grid, Table
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -18,7 +16,7 @@ if TYPE_CHECKING:
     from compare.files.record import Score
     from compare.files.scales import Point
 
-__all__ = ["csv_header", "csv_rows", "json_text", "marked", "rendered"]
+__all__ = ["csv_header", "csv_rows", "marked", "page"]
 
 ERRORS = ("phase_error", "amplitude_error", "energy_error")
 NOTE = "[ ] holds the first wrong digit of a number; where there is none, every digit is right."
@@ -42,10 +40,12 @@ def marked(text: str, place: int | None) -> str:
     return f"{mantissa[:at]}[{mantissa[at]}]{mantissa[at + 1 :]}{exponent}"
 
 
-def rendered(score: Score, form: str) -> str:
-    """The rows that were kept, and the summary, as text, markdown, latex or json."""
-    if form == "json":
-        return json_text(score)
+def page(score: Score) -> Page:
+    """The rows that were kept, and the summary."""
+    return Page("score", lambda _form, _width: (_table(score), Sentence(summary_line(score))), lambda: _data(score))
+
+
+def _table(score: Score) -> Table:
     title = f"{score.problem}: times read {'as the doubles they spell' if score.times == 'binary64' else 'as written'}"
     wide = any(len(value) > 40 for point in score.points for value in point.values)
     columns = [Column("row"), Column("t"), *(Column(name, left=True) for name in score.names)]
@@ -59,16 +59,7 @@ def rendered(score: Score, form: str) -> str:
     tables = _split(columns, rows, 2 + len(score.names)) if wide else (Grid(tuple(columns), rows),)
     shown = len(score.points)
     legend = NOTE if shown == score.rows else f"{NOTE} {shown} of {score.rows} rows are shown."
-    section = Section("score", title, tables, " ".join((legend, *score.notes)))
-    layout = {"text": text_table.text, "markdown": text_table.markdown, "latex": text_table.latex}[form]
-    summary = summary_line(score)
-    return (
-        f"{layout(section)}\n{text_table.markdown_text(summary) if form == 'markdown' else _comment(summary, form)}\n"
-    )
-
-
-def _comment(summary: str, form: str) -> str:
-    return f"% {summary}" if form == "latex" else summary
+    return Table("score", title, tables, " ".join((legend, *score.notes)))
 
 
 def _split(columns: list[Column], rows: tuple[tuple[str, ...], ...], at: int) -> tuple[Grid, ...]:
@@ -114,59 +105,37 @@ def summary_line(score: Score) -> str:
     return ", ".join(parts)
 
 
-def json_text(score: Score) -> str:
-    """One object; "rows" is their number, "points" are those that were kept; what is not a number is null."""
-    names = score.names
-    answer = {
-        "problem": score.problem,
-        "units": dict(zip(names, score.units, strict=True)),
-        "rows": score.rows,
-        "worst_digits": score.worst_digits,
-        "worst_row": score.worst_row,
-        "worst_scaled_digits": score.worst_scaled_digits,
-        "worst_scaled_row": score.worst_scaled_row,
-        "scales": dict(zip(names, score.scales, strict=True)),
-        "digits_held": score.digits_held,
-        "max_error": _number(score.max_error),
-        "max_errors": {name: _number(value) for name, value in zip(names, score.max_errors, strict=True)},
-        "max_phase_error": _number(score.max_phase_error),
-        "max_amplitude_error": _number(score.max_amplitude_error),
-        "max_energy_error": _number(score.max_energy_error),
-        "times": score.times,
-        "notes": list(score.notes),
-    }
-    head = json.dumps(answer, indent=2, ensure_ascii=False, allow_nan=False).removesuffix("\n}")
-    rows = ",\n".join(f"    {json.dumps(_plain(point, names), ensure_ascii=False)}" for point in score.points)
-    return f'{head},\n  "points": [\n{rows}\n  ]\n}}\n'
+def _data(score: Score) -> Lines:
+    """The fields of the score; "rows" is their number, "points" are those that were kept."""
+    fields = fields_of(score, "names", "points")
+    of_each = {name: dict(zip(score.names, fields[name], strict=True)) for name in ("units", "scales", "max_errors")}
+    points = Lines([_point(point, score.names) for point in score.points])
+    return Lines({**in_lines(fields | of_each).entries, "points": points})
 
 
-def _plain(point: Point, names: tuple[str, ...]) -> dict[str, Any]:
+def _point(point: Point, names: tuple[str, ...]) -> dict[str, Any]:
     return {
         "row": point.number,
         "t": point.t,
         **dict(zip(names, point.values, strict=True)),
         "digits": point.digits,
         "scaled_digits": point.scaled_digits,
-        "error": _number(point.error),
-        "errors": {name: _number(value) for name, value in zip(names, point.errors, strict=True)},
+        "error": point.error,
+        "errors": dict(zip(names, point.errors, strict=True)),
         "first_wrong_digit": dict(zip(names, point.first_wrong, strict=True)),
-        **{name: _number(getattr(point, name)) for name in ERRORS},
+        **{name: getattr(point, name) for name in ERRORS},
     }
-
-
-def _number(value: float) -> float | None:
-    return value if math.isfinite(value) else None
 
 
 def csv_header(names: Iterable[str]) -> str:
     """The first line of the rows as CSV."""
     parts = [f"{name}{suffix}" for suffix in ("_error", "_first_wrong_digit") for name in names]
-    return _csv([["row", "t", *names, "digits", "error", *parts, *ERRORS]])
+    return csv_text([["row", "t", *names, "digits", "error", *parts, *ERRORS]])
 
 
 def csv_rows(points: Iterable[Point]) -> str:
     """Rows as CSV; what is not a number, or a first wrong digit that there is not, is an empty field."""
-    return _csv(
+    return csv_text(
         [
             point.number,
             point.t,
@@ -174,14 +143,8 @@ def csv_rows(points: Iterable[Point]) -> str:
             point.digits,
             point.error,
             *point.errors,
-            *("" if place is None else place for place in point.first_wrong),
-            *("" if math.isnan(error) else error for error in (getattr(point, name) for name in ERRORS)),
+            *point.first_wrong,
+            *(None if math.isnan(error) else error for error in (getattr(point, name) for name in ERRORS)),
         ]
         for point in points
     )
-
-
-def _csv(rows: Iterable[list[Any]]) -> str:
-    buffer = io.StringIO()
-    csv.writer(buffer, lineterminator="\n").writerows(rows)
-    return buffer.getvalue()

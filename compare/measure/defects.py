@@ -198,16 +198,17 @@ def _changes(
 def symplectic_change(slopes: np.ndarray, before: np.ndarray, after: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Of (S' W S - W)/|W| the largest entry with its sign, and the sum of the sizes of its products: [lanes] each.
 
+    It is antisymmetric: what is above its diagonal is all of it.
+
     Args:
         slopes: S, the derivative of a step in positions and rates: [2 n, 2 n, lanes].
         before: the symplectic form W at the state, [2 n, 2 n, lanes].
         after: the same at the state after the step.
     """
-    size = np.max(np.abs(before), axis=(0, 1))
-    changes = (_congruent(slopes, after) - before) / size
-    flat = changes.reshape(len(slopes) ** 2, -1)
-    largest = np.take_along_axis(flat, np.argmax(np.abs(flat), axis=0)[None], axis=0)[0]
-    products = np.max(_congruent(np.abs(slopes), np.abs(after)), axis=(0, 1)) / size
+    size, above = np.max(np.abs(before), axis=(0, 1)), np.triu_indices(len(slopes), 1)
+    changes = (_congruent(slopes, after) - before)[above] / size
+    largest = np.take_along_axis(changes, np.argmax(np.abs(changes), axis=0)[None], axis=0)[0]
+    products = np.max(_congruent(np.abs(slopes), np.abs(after))[above], axis=0) / size
     return largest.astype(np.float64), products.astype(np.float64)
 
 

@@ -59,7 +59,7 @@ class StepFunction(OneStep):
         """A step of the function on the state's numbers, symbols or arrays of lanes.
 
         Raises:
-            ValueError: it gives no state of the same shape.
+            ValueError: it fails on them, or gives no state of the same shape.
         """
 
         def rates(state: Any) -> Any:
@@ -67,7 +67,13 @@ class StepFunction(OneStep):
             return np.array(np.broadcast_arrays(*slopes), dtype=np.asarray(state).dtype)
 
         now = np.array(y)
-        found = np.asarray(self.function(rates, now, h))
+        try:
+            found = np.asarray(self.function(rates, now, h))
+        except (TypeError, ValueError, AttributeError, ArithmeticError) as error:
+            raise ValueError(
+                f"{self.name} raised {type(error).__name__} on an array of {now.dtype}: {error}; a step that is made "
+                "of arithmetic on y alone is accepted, for it is traced with symbols."
+            ) from error
         if found.shape != now.shape:
             raise ValueError(
                 f"{self.name} returned an array of shape {found.shape} for a state of shape {now.shape}; the same "

@@ -6,7 +6,7 @@ import os
 from typing import TYPE_CHECKING, Any
 
 from compare.show.render import FORMATS
-from reference.command import values as reading
+from reference.command import values
 from reference.command.terminal import one_of
 
 if TYPE_CHECKING:
@@ -57,26 +57,26 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 def options(known: argparse.Namespace) -> dict[str, Any]:
     """What was given: "plan", the arguments of ``compare.report.run.plan``, and those of ``run``."""
     given: dict[str, Any] = {
-        name: reading.several(name, getattr(known, name), read)
+        name: values.several(name, getattr(known, name), read)
         for name, read in (
-            ("problems", reading.text),
+            ("problems", values.text),
             ("amplitudes", _amplitude),
-            ("methods", reading.text),
-            ("solvers", reading.text),
-            ("n", reading.whole),
-            ("rtol", reading.number),
+            ("methods", values.text),
+            ("solvers", values.text),
+            ("n", values.whole),
+            ("rtol", values.number),
         )
         if getattr(known, name) is not None
     }
     given |= {name: () for name in ("methods", "solvers") if given.get(name) == NONE}
     if known.t_end is not None:
-        given["t_end"] = reading.number(known.t_end, "t-end")
+        given["t_end"] = values.number(known.t_end, "t-end")
     if known.max_evaluations is not None:
-        given["max_evaluations"] = reading.whole(known.max_evaluations, "max-evaluations", "number of evaluations")
-    jobs = os.cpu_count() or 1 if known.jobs is None else reading.whole(known.jobs, "jobs", "number of processes")
+        given["max_evaluations"] = values.whole(known.max_evaluations, "max-evaluations", "number of evaluations")
+    jobs = os.cpu_count() or 1 if known.jobs is None else values.whole(known.jobs, "jobs", "number of processes")
     return {"plan": given, "jobs": jobs, "executor": known.executor}
 
 
 def _amplitude(piece: str, name: str) -> float | str:
     """A number, or the name of a curve."""
-    return piece if piece.replace("_", "").isalpha() else reading.number(piece, name)
+    return piece if piece.replace("_", "").isalpha() else values.number(piece, name)

@@ -5,39 +5,29 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from compare.report.problems import reported_by
+from compare.report.records import WorkPoint
 from compare.show import text_table
-from compare.show.render import Tables
-from compare.show.text_table import Column, Grid, Section
+from compare.show.page import field_names
+from compare.show.study_page import study_page
+from compare.show.text_table import Column, Grid, Table
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
 
-    from compare.report.records import Report, WorkPoint
-    from compare.show.render import Columns
+    from compare.report.records import Report
+    from compare.show.page import Page
+    from compare.show.study_page import Columns
 
-__all__ = ["COLUMNS", "TABLES", "TARGETS", "cases", "sections"]
+__all__ = ["TARGETS", "case_tables", "cases", "closing", "page", "tables"]
 
-COLUMNS: Columns = {
-    "points": (
-        "family",
-        "amplitude",
-        "name",
-        "kind",
-        "setting",
-        "max_error",
-        "floor",
-        "evaluations",
-        "seconds",
-        "failure",
-    )
-}
+COLUMNS: Columns = {"points": field_names(WorkPoint)}
 TARGETS = tuple(float(f"1e-{k}") for k in range(2, 15, 2))
 
 
-def sections(report: Report, width: int = 100) -> Iterator[Section]:
+def tables(report: Report, width: int = 100) -> Iterator[Table]:
     """The readable tables, problem by problem, then what failed and what is missing."""
     for title, points in cases(report):
-        yield from case_sections(report, title, points)
+        yield from case_tables(report, title, points)
     yield from closing(report, width)
 
 
@@ -48,7 +38,7 @@ def cases(report: Report) -> Iterator[tuple[str, list[WorkPoint]]]:
         yield reported_by(name).label(amplitude), points
 
 
-def case_sections(report: Report, title: str, points: Sequence[WorkPoint]) -> Iterator[Section]:
+def case_tables(report: Report, title: str, points: Sequence[WorkPoint]) -> Iterator[Table]:
     """What an error costs on one problem."""
     names = {point.name for point in points}
     counts = [f"{name}: {what}" for name, what in report.counts.items() if name in names]
@@ -62,7 +52,7 @@ def _costs(
     cost: Callable[[WorkPoint], Any],
     text: Callable[[Any], str],
     notes: Sequence[str] = (),
-) -> Section:
+) -> Table:
     def least(name: str, target: float) -> str:
         costs = [cost(point) for point in points if point.name == name and point.max_error <= target]
         return text(min(costs)) if costs else "-"
@@ -71,10 +61,10 @@ def _costs(
     rows = tuple((name, *(least(name, t) for t in TARGETS)) for name in dict.fromkeys(p.name for p in points))
     units = reported_by(points[0].family).error_units
     whole = f"{title}: the least of those measured whose largest error{f', in {units},' if units else ''} is below"
-    return Section(text_table.slug(title.lower()), whole, (Grid(columns, rows),), "\n".join(notes))
+    return Table(text_table.slug(title.lower()), whole, (Grid(columns, rows),), "\n".join(notes))
 
 
-def closing(report: Report, width: int) -> Iterator[Section]:
+def closing(report: Report, width: int) -> Iterator[Table]:
     """What failed, what does not fit a problem, and what is not installed."""
     failures: dict[tuple[str, str], list[str]] = {}
     for point in report.points:
@@ -90,8 +80,9 @@ def closing(report: Report, width: int) -> Iterator[Section]:
     ):
         if rows:
             columns = [Column(label, left=True) for label in labels]
-            yield Section(name, title, (text_table.folded(columns, rows, width),))
+            yield Table(name, title, (text_table.folded(columns, rows, width),))
 
 
-TABLES = Tables(sections, COLUMNS)
-"""How a report is shown."""
+def page(report: Report) -> Page:
+    """A report as it is printed."""
+    return study_page(report, tables, COLUMNS)

@@ -1,9 +1,7 @@
-"""A study's tables, as text, Markdown, CSV, LaTeX or JSON: error, order, drift; ``study_extras`` has the others.
+"""The tables of a study of fixed steps: error, order and drift; norms, phase and amplitude, growth, period, defects.
 
-The readable forms (text, Markdown, LaTeX) round to three digits and say in their notes what a mark means.
-The machine forms (CSV, JSON) hold every number at full precision; `compare.show.render` writes them.
-
-The tables of the scores that are asked for: norms, phase and amplitude, growth, period, defects.
+They round to three digits and say in their notes what a mark means.
+For programs there are the study's records, whose every number has its full precision.
 """
 
 from __future__ import annotations
@@ -12,7 +10,7 @@ import math
 from operator import attrgetter
 from typing import TYPE_CHECKING, Any
 
-from compare.show import render as rendering
+from compare.measure.records import Cell, Defect, Drift, FittedOrder, Growth, OwnPeriod, Phase
 from compare.show import text_table
 from compare.show.digits import (
     DOUBT,
@@ -27,17 +25,30 @@ from compare.show.digits import (
     scientific,
     starred,
 )
-from compare.show.render import COLUMNS, FORMATS, Tables
-from compare.show.text_table import Column, Grid, Section
+from compare.show.page import field_names
+from compare.show.study_page import study_page
+from compare.show.text_table import Column, Grid, Table
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
 
-    from compare.measure.records import Case, Cell, Drift, FittedOrder, Growth, Phase, Study
+    from compare.measure.records import Case, Study
+    from compare.show.page import Page
+    from compare.show.study_page import Columns
     from reference.declaration import Invariant
 
-__all__ = ["FORMATS", "TABLES", "files", "render", "sections"]
+__all__ = ["COLUMNS", "page", "tables"]
 
+COLUMNS: Columns = {
+    "error_vs_n": field_names(Cell, "velocity_rounding", "order_rounding"),
+    "order": field_names(FittedOrder, "spread_rounding"),
+    "energy_drift": field_names(Drift, "slope_rounding", "relative_rounding"),
+    "phase": field_names(Phase),
+    "growth": field_names(Growth, "rounding"),
+    "period": field_names(OwnPeriod),
+    "defects": field_names(Defect),
+}
+"""What programs are given of each table's records."""
 _GROWTH_NOTE = (
     "exponent of t ± its 95 % interval; no law where none is clear\n"
     "* means that the error is rounding: the mean of marches from several starts"
@@ -45,7 +56,7 @@ _GROWTH_NOTE = (
 _GROWTH_NAN = "nan means fewer than 32 periods, or an error that is no number"
 
 
-def _norms(study: Study, case: Case, declared: dict[str, int], width: int) -> Iterator[Section]:
+def _norms(study: Study, case: Case, declared: dict[str, int], width: int) -> Iterator[Table]:
     cells = [cell for cell in study.error_vs_n if cell.case == case]
     if not cells:
         return
@@ -56,7 +67,7 @@ def _norms(study: Study, case: Case, declared: dict[str, int], width: int) -> It
         grids.append(of_steps(cells, declared, width, ["max v", "rms v", "end v"], _velocity_norms))
     unit = f", in {case.unit}" if case.unit else ""
     rate = f"; v: of the velocity{', per second' if case.unit else ', relative to its largest'}" if velocity else ""
-    yield Section(
+    yield Table(
         name=f"norms-{text_table.slug(case.label)}",
         title=f"Norms, {case.label}: {case.error}{unit}, its correct digits, and the work{rate}",
         grids=tuple(grids),
@@ -75,19 +86,19 @@ def _velocity_norms(cell: Cell) -> list[str]:
     return [starred(error, cell.velocity_rounding) for error in errors]
 
 
-def _phase(study: Study, case: Case, declared: dict[str, int], width: int) -> Iterator[Section]:
+def _phase(study: Study, case: Case, declared: dict[str, int], width: int) -> Iterator[Table]:
     found = [phase for phase in study.phase or () if phase.case == case]
     if not found:
         return
     grids = by_steps(found, declared, width, _phase_cell)
-    yield Section(
+    yield Table(
         name=f"phase-{text_table.slug(case.label)}",
         title=f"Phase, {case.label}: largest |phase - exact| over the sample times, in rad, 2 pi a period",
         grids=grids,
         note=legend(grids, _LOST_NOTE if any(phase.lost for phase in found) else ""),
     )
     if not all(math.isnan(phase.max_amplitude_error) for phase in found):
-        yield from plain(
+        yield from _one_number(
             found,
             "amplitude",
             f"Amplitude, {case.label}: largest |amplitude - exact| over the sample times, in units of the place",
@@ -103,10 +114,10 @@ def _phase_cell(phase: Phase) -> list[str]:
     return [starred(phase.max_phase_error, phase.phase_rounding) + "!" * bool(phase.lost)]
 
 
-def _growth(study: Study, case: Case, declared: dict[str, int], width: int) -> Iterator[Section]:
+def _growth(study: Study, case: Case, declared: dict[str, int], width: int) -> Iterator[Table]:
     found = [growth for growth in study.growth or () if growth.case == case]
     if found and all(math.isnan(growth.exponent) for growth in found):
-        yield Section(
+        yield Table(
             name=f"growth-{text_table.slug(case.label)}", title=f"Growth, {case.label}: {_no_law(case)}", grids=()
         )
         return
@@ -117,7 +128,7 @@ def _growth(study: Study, case: Case, declared: dict[str, int], width: int) -> I
             doubt = any(DOUBT in cell for row in found_grid.rows for cell in row)
             nan = any(math.isnan(growth.exponent) for growth in records)
             notes = _GROWTH_NOTE, NOTES[DOUBT] if doubt else "", _GROWTH_NAN if nan else ""
-            yield Section(
+            yield Table(
                 name=f"growth-{quantity}-{text_table.slug(case.label)}",
                 title=f"Growth, {case.label}: law of the {_WORDS.get(quantity, f'change of the {quantity}')} over time",
                 grids=(found_grid,),
@@ -142,8 +153,8 @@ def _growth_cells(growth: Growth) -> list[str]:
     return [growth.law or "-", f"{exponent} ± {growth.interval:.2f}{ROUNDING * growth.floor}"]
 
 
-def _period(study: Study, case: Case, declared: dict[str, int], width: int) -> Iterator[Section]:
-    yield from plain(
+def _period(study: Study, case: Case, declared: dict[str, int], width: int) -> Iterator[Table]:
+    yield from _one_number(
         [period for period in study.period or () if period.case == case],
         "period",
         f"Period, {case.label}: own/exact - 1, between two passages through the bottom, each where the phase of the "
@@ -153,12 +164,14 @@ def _period(study: Study, case: Case, declared: dict[str, int], width: int) -> I
     )
 
 
-def _defects(study: Study, case: Case, declared: dict[str, int], width: int) -> Iterator[Section]:
+def _defects(study: Study, case: Case, declared: dict[str, int], width: int) -> Iterator[Table]:
     found = [defect for defect in study.defects or () if defect.case == case]
     for what, title in _DEFECTS.items():
         known = [defect for defect in found if not math.isnan(getattr(defect, what))]
         numbers = attrgetter(what, f"{what}_rounding")
-        yield from plain(known, what, title.format(case.label, _FORMS[case.freedom > 1]), numbers, (declared, width))
+        yield from _one_number(
+            known, what, title.format(case.label, _FORMS[case.freedom > 1]), numbers, (declared, width)
+        )
 
 
 _FORMS = {
@@ -172,18 +185,18 @@ _DEFECTS = {
 }
 
 
-def plain(
+def _one_number(
     records: Sequence[Any],
     name: str,
     title: str,
     numbers: Callable[[Any], tuple[float, float]],
     layout: tuple[dict[str, int], int],
-) -> Iterator[Section]:
+) -> Iterator[Table]:
     """One number for each method and N, if there are any; ``numbers`` gives it with rounding's part of it."""
     if records:
         grids = by_steps(records, *layout, lambda record: [starred(*numbers(record))])
         missing = _MISSING.get(name, "") if any(math.isnan(numbers(record)[0]) for record in records) else ""
-        yield Section(f"{name}-{text_table.slug(records[0].case.label)}", title, grids, legend(grids, missing))
+        yield Table(f"{name}-{text_table.slug(records[0].case.label)}", title, grids, legend(grids, missing))
 
 
 _MISSING = {"period": "nan means that two passages were not found within the march"}
@@ -191,21 +204,12 @@ _NAN_NOTE = "nan means overflow, stages that do not converge, or no Taylor serie
 _FAR_NOTE = "! means further from the declared order than the slopes are from each other"
 
 
-def render(study: Study, form: str = "text", width: int = 100) -> str:
-    """The study's tables in one of FORMATS; `width` is the longest line of the text form.
-
-    Raises:
-        ValueError: the format is not one of FORMATS.
-    """
-    return rendering.render(study, TABLES, form, width)
+def page(study: Study) -> Page:
+    """A study of fixed steps."""
+    return study_page(study, tables, COLUMNS)
 
 
-def files(study: Study, form: str = "text", width: int = 100) -> dict[str, bytes]:
-    """What `render` gives, by file name: one file, or for CSV one file a table."""
-    return rendering.files(study, TABLES, form, width)
-
-
-def sections(study: Study, width: int = 100) -> Iterator[Section]:
+def tables(study: Study, width: int = 100) -> Iterator[Table]:
     """The readable tables, case by case, with columns grouped by declared order to fit the width."""
     declared = {fit.method: fit.declared_order for fit in study.order}
     for case in study.cases:
@@ -213,34 +217,34 @@ def sections(study: Study, width: int = 100) -> Iterator[Section]:
         for score in study.scores:
             if score in lacks:
                 name, title = f"{score}-{text_table.slug(case.label)}", f"{score.capitalize()}, {case.label}"
-                yield Section(name=name, title=f"{title}: {lacks[score]}", grids=())
-            yield from _SECTIONS[score](study, case, declared, width)
+                yield Table(name=name, title=f"{title}: {lacks[score]}", grids=())
+            yield from _TABLES[score](study, case, declared, width)
 
 
-def _error(study: Study, case: Case, declared: dict[str, int], width: int) -> Iterator[Section]:
+def _error(study: Study, case: Case, declared: dict[str, int], width: int) -> Iterator[Table]:
     """Errors against N, and the orders fitted to them."""
     cells = [cell for cell in study.error_vs_n if cell.case == case]
     if cells:
-        yield _error_section(cells, declared, width)
+        yield _error_table(cells, declared, width)
     fits = [fit for fit in study.order if fit.case == case]
     if fits:
-        yield _order_section(fits)
+        yield _order_table(fits)
 
 
-def _drift(study: Study, case: Case, declared: dict[str, int], width: int) -> Iterator[Section]:
+def _drift(study: Study, case: Case, declared: dict[str, int], width: int) -> Iterator[Table]:
     """The drift of what is conserved, and its trend."""
     for invariant in case.invariants:
         drifts = [drift for drift in study.energy_drift if (drift.case, drift.invariant) == (case, invariant.name)]
         if drifts:
-            yield from _drift_section(drifts, invariant, declared, width)
-            yield _slope_section(drifts, invariant, declared, width)
+            yield from _drift_table(drifts, invariant, declared, width)
+            yield _slope_table(drifts, invariant, declared, width)
 
 
-def _error_section(cells: Sequence[Cell], declared: dict[str, int], width: int) -> Section:
+def _error_table(cells: Sequence[Cell], declared: dict[str, int], width: int) -> Table:
     case = cells[0].case
     what = f"largest {case.error} over the sample {case.samples}{f', in {case.unit},' if case.unit else ''}"
     grids = by_steps(cells, declared, width, _error_cell, (Column("error"), Column("order", left=True)))
-    return Section(
+    return Table(
         name=f"error-vs-n-{text_table.slug(case.label)}",
         title=f"Error against N, {case.label}: {what} and local order",
         grids=grids,
@@ -254,7 +258,7 @@ def _error_cell(cell: Cell) -> tuple[str, str]:
     return scientific(cell.max_error, cell.rounding), _local_order(cell)
 
 
-def _order_section(fits: Sequence[FittedOrder]) -> Section:
+def _order_table(fits: Sequence[FittedOrder]) -> Table:
     at = fits[0].case.label
     columns = (
         Column("method", left=True),
@@ -277,7 +281,7 @@ def _order_section(fits: Sequence[FittedOrder]) -> Section:
     missing = (
         "- means fewer than three cells in the asymptotic range" if any(f.fitted_order is None for f in fits) else ""
     )
-    return Section(
+    return Table(
         name=f"order-{text_table.slug(at)}",
         title=f"Order, {at}: slope of log(error) against log(h) over the asymptotic range, ± spread of local slopes",
         grids=grids,
@@ -285,17 +289,17 @@ def _order_section(fits: Sequence[FittedOrder]) -> Section:
     )
 
 
-def _drift_section(
+def _drift_table(
     drifts: Sequence[Drift], invariant: Invariant, declared: dict[str, int], width: int
-) -> Iterator[Section]:
+) -> Iterator[Table]:
     case, (name, change) = drifts[0].case, invariant.drift
     size = f"|{change.partition('/')[0].strip('()')}|/{change.partition('/')[2]}"
     title = f"{name} drift, {case.label}: max {size} over every step"
     numbers = attrgetter("max_drift_above_rest", "rounding")
-    yield from plain(drifts, f"{text_table.slug(invariant.name)}-drift", title, numbers, (declared, width))
+    yield from _one_number(drifts, f"{text_table.slug(invariant.name)}-drift", title, numbers, (declared, width))
 
 
-def _slope_section(drifts: Sequence[Drift], invariant: Invariant, declared: dict[str, int], width: int) -> Section:
+def _slope_table(drifts: Sequence[Drift], invariant: Invariant, declared: dict[str, int], width: int) -> Table:
     case, (name, change) = drifts[0].case, invariant.drift
     energy = case.energy and invariant == case.invariants[0]
     slope = f"slope of {change} per {case.cycle}, 95 % interval"
@@ -308,7 +312,7 @@ def _slope_section(drifts: Sequence[Drift], invariant: Invariant, declared: dict
 
     labels = [*(["relative"] if energy else []), f"slope per {case.cycle}"]
     grids = (of_steps(drifts, declared, width, labels, cells),)
-    return Section(
+    return Table(
         name=f"{text_table.slug(invariant.name)}-slope-{text_table.slug(case.label)}",
         title=f"{name} trend, {case.label}: {'max |E - E0|/|E0|, and ' if energy else ''}{slope}",
         grids=grids,
@@ -347,7 +351,7 @@ def _is_far(fit: FittedOrder) -> bool:
 _DECIMALS = (".4f", ".3f", ".2f")
 
 
-_SECTIONS: dict[str, Callable[[Study, Case, dict[str, int], int], Iterator[Section]]] = {
+_TABLES: dict[str, Callable[[Study, Case, dict[str, int], int], Iterator[Table]]] = {
     "error": _error,
     "drift": _drift,
     "norms": _norms,
@@ -357,5 +361,3 @@ _SECTIONS: dict[str, Callable[[Study, Case, dict[str, int], int], Iterator[Secti
     "defects": _defects,
 }
 """The tables of each score."""
-TABLES = Tables(sections, COLUMNS)
-"""How a study of fixed steps is shown."""

@@ -9,9 +9,21 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
+    from collections.abc import Iterable, Iterator, Sequence
 
-__all__ = ["Column", "Grid", "Section", "folded", "latex", "markdown", "markdown_text", "slug", "text", "text_width"]
+__all__ = [
+    "Column",
+    "Grid",
+    "Table",
+    "folded",
+    "latex",
+    "latex_row",
+    "markdown",
+    "markdown_text",
+    "slug",
+    "text",
+    "text_width",
+]
 
 _NARROWEST = 30
 _SCIENTIFIC = re.compile(r"(-?\d(?:\.\d+)?)e([+-]\d+)")
@@ -28,23 +40,31 @@ _LATEX_SPECIAL = {character: rf"\{character}" for character in "_%&#${}"} | {
 
 @dataclass(frozen=True)
 class Column:
-    """A column's label, and the heading that it shares with its neighbours of the same group ("" for none)."""
+    """A column's label, and the heading that it shares with its neighbours of the same group ("" for none).
+
+    ``bar`` draws a line behind it, in text.
+    """
 
     label: str
     group: str = ""
     left: bool = False
+    bar: bool = False
 
 
 @dataclass(frozen=True)
 class Grid:
-    """Columns and rows of finished cells; every row has one string a column."""
+    """Columns and rows of finished cells; every row has one string a column.
+
+    In text, columns without labels have no head, and a rule is drawn before the row of the number ``ruled``.
+    """
 
     columns: tuple[Column, ...]
     rows: tuple[tuple[str, ...], ...]
+    ruled: int | None = None
 
 
 @dataclass(frozen=True)
-class Section:
+class Table:
     """One titled table; it has several grids where one would be too wide to read.
 
     Attributes:
@@ -65,10 +85,11 @@ def slug(words: str) -> str:
     return re.sub(r"[^a-z0-9]+", "-", words)
 
 
-def folded(columns: Sequence[Column], rows: Sequence[tuple[str, ...]], width: int) -> Grid:
-    """The rows, the last column folded to what the others leave of the width."""
-    others = [max(len(column.label), *(len(row[i]) for row in rows)) + 2 for i, column in enumerate(columns[:-1])]
-    room = max(width - sum(others), _NARROWEST)
+def folded(columns: Sequence[Column], rows: Sequence[tuple[str, ...]], width: int, room: int | None = None) -> Grid:
+    """The rows, the last column folded to a room of its own, or to what the others leave of the width."""
+    if room is None:
+        others = [max(len(column.label), *(len(row[i]) for row in rows)) + 2 for i, column in enumerate(columns[:-1])]
+        room = max(width - sum(others), _NARROWEST)
     lines = []
     for row in rows:
         first, *rest = textwrap.wrap(row[-1], room) or [""]
@@ -77,11 +98,11 @@ def folded(columns: Sequence[Column], rows: Sequence[tuple[str, ...]], width: in
     return Grid(tuple(columns), tuple(lines))
 
 
-def text(section: Section) -> str:
-    """The section in fixed-width columns, for a terminal."""
-    blocks = [section.title]
-    blocks += ["\n".join(line.rstrip() for line in _text_lines(grid)) for grid in section.grids]
-    blocks += [section.note] if section.note else []
+def text(table: Table) -> str:
+    """The table in fixed-width columns, for a terminal."""
+    blocks = [table.title] if table.title else []
+    blocks += ["\n".join(line.rstrip() for line in _text_lines(grid)) for grid in table.grids]
+    blocks += [table.note] if table.note else []
     return "\n\n".join(blocks) + "\n"
 
 
@@ -91,32 +112,32 @@ def text_width(grid: Grid) -> int:
     return sum(widths) + sum(len(_gap(grid, i)) for i in range(len(widths)))
 
 
-def markdown(section: Section) -> str:
-    """The section as GitHub tables."""
-    blocks = [f"### {markdown_text(section.title)}"]
-    for grid in section.grids:
+def markdown(table: Table) -> str:
+    """The table as GitHub tables."""
+    blocks = [f"### {markdown_text(table.title)}"]
+    for grid in table.grids:
         header = [" ".join(filter(None, (column.group, column.label))) for column in grid.columns]
         rule = [":--" if column.left else "--:" for column in grid.columns]
         lines = [[markdown_text(cell) for cell in row] for row in (header, *grid.rows)]
         lines.insert(1, rule)
         blocks.append("\n".join("| " + " | ".join(line) + " |" for line in lines))
-    blocks += [markdown_text(section.note)] if section.note else []
+    blocks += [markdown_text(table.note)] if table.note else []
     return "\n\n".join(blocks) + "\n"
 
 
-def latex(section: Section) -> str:
-    """The section as one LaTeX table a grid, with booktabs rules and a caption; without a grid a paragraph."""
-    caption = _latex_cell(section.title)
-    note = f" {_latex_cell(section.note)}" if section.note else ""
-    parts = [] if section.grids else [f"{caption}.{note}", ""]
-    for number, grid in enumerate(section.grids, start=1):
-        of = f" ({number} of {len(section.grids)})" if len(section.grids) > 1 else ""
-        suffix = f"-{number}" if len(section.grids) > 1 else ""
+def latex(table: Table) -> str:
+    """The table as one LaTeX table a grid, with booktabs rules and a caption; without a grid a paragraph."""
+    caption = _latex_cell(table.title)
+    note = f" {_latex_cell(table.note)}" if table.note else ""
+    parts = [] if table.grids else [f"{caption}.{note}", ""]
+    for number, grid in enumerate(table.grids, start=1):
+        of = f" ({number} of {len(table.grids)})" if len(table.grids) > 1 else ""
+        suffix = f"-{number}" if len(table.grids) > 1 else ""
         parts += [
             r"\begin{table}[htbp]",
             r"\centering\footnotesize",
             rf"\caption{{{caption}{of}.{note}}}",
-            rf"\label{{tab:{section.name}{suffix}}}",
+            rf"\label{{tab:{table.name}{suffix}}}",
             *_latex_tabular(grid),
             r"\end{table}",
             "",
@@ -137,6 +158,8 @@ def _gap(grid: Grid, index: int) -> str:
     """What stands before a column: less inside a group than between groups."""
     if index == 0:
         return ""
+    if grid.columns[index - 1].bar:
+        return " | "
     group = grid.columns[index].group
     return " " if group and group == grid.columns[index - 1].group else "  "
 
@@ -171,11 +194,15 @@ def _text_lines(grid: Grid) -> Iterator[str]:
     widths = _widths(grid)
     if any(column.group for column in grid.columns):
         yield from _group_lines(grid, widths)
-    labels = [_wrap(column.label, width) for column, width in zip(grid.columns, widths, strict=True)]
-    for line in _bottom_aligned(labels):
-        yield _text_row(grid, widths, line)
-    yield "".join(_gap(grid, i).replace(" ", "-") + "-" * width for i, width in enumerate(widths))
-    for row in grid.rows:
+    rule = "".join(_gap(grid, i).replace(" ", "-").replace("|", "+") + "-" * width for i, width in enumerate(widths))
+    if any(column.label for column in grid.columns):
+        labels = [_wrap(column.label, width) for column, width in zip(grid.columns, widths, strict=True)]
+        for line in _bottom_aligned(labels):
+            yield _text_row(grid, widths, line)
+        yield rule
+    for number, row in enumerate(grid.rows):
+        if number == grid.ruled:
+            yield rule
         yield _text_row(grid, widths, row)
 
 
@@ -227,26 +254,25 @@ def _latex_heading(label: str, width: int) -> str:
     return stack if len(lines) == 1 else rf"\shortstack{{{stack}}}"
 
 
+def latex_row(cells: Iterable[str]) -> str:
+    """Finished cells as a line of a tabular or an array."""
+    return " & ".join(cells) + r" \\"
+
+
 def _latex_tabular(grid: Grid) -> Iterator[str]:
     widths = _widths(grid)
     yield rf"\begin{{tabular}}{{{''.join('l' if column.left else 'r' for column in grid.columns)}}}"
     yield r"\toprule"
     if any(column.group for column in grid.columns):
         spans = list(_spans(grid))
-        yield (
-            " & ".join(
-                rf"\multicolumn{{{stop - start}}}{{c}}{{{_latex_heading(group, sum(widths[start:stop]))}}}"
-                for group, start, stop in spans
-            )
-            + r" \\"
+        yield latex_row(
+            rf"\multicolumn{{{stop - start}}}{{c}}{{{_latex_heading(group, sum(widths[start:stop]))}}}"
+            for group, start, stop in spans
         )
         yield "".join(rf"\cmidrule(lr){{{start + 1}-{stop}}}" for group, start, stop in spans if group)
-    yield (
-        " & ".join(_latex_heading(column.label, width) for column, width in zip(grid.columns, widths, strict=True))
-        + r" \\"
-    )
+    yield latex_row(_latex_heading(column.label, width) for column, width in zip(grid.columns, widths, strict=True))
     yield r"\midrule"
     for row in grid.rows:
-        yield " & ".join(map(_latex_cell, row)) + r" \\"
+        yield latex_row(map(_latex_cell, row))
     yield r"\bottomrule"
     yield r"\end{tabular}"

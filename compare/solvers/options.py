@@ -6,9 +6,9 @@ from typing import TYPE_CHECKING, Any
 
 from compare.options import inputs_given, inputs_offered
 from compare.show.render import FORMATS
-from reference.command import values as reading
+from reference.command import values
 from reference.command.terminal import one_of
-from reference.problems.families import find_family
+from reference.problems.families import USUAL, find_family
 
 if TYPE_CHECKING:
     import argparse
@@ -22,7 +22,7 @@ __all__ = ["add_options", "options"]
 def add_options(parser: argparse.ArgumentParser, families: Sequence[Family]) -> None:
     """Add them to a parser, the inputs of the families among them."""
     several: dict[str, Any] = {"action": "append", "metavar": "A,B"}
-    parser.add_argument("--problem", default="pendulum", metavar="NAME", help="family of problems (default pendulum)")
+    parser.add_argument("--problem", default=USUAL, metavar="NAME", help=f"family of problems (default {USUAL})")
     inputs_offered(families, parser)
     parser.add_argument("--t-end", metavar="T", help="the last time in s, or in the problem's unit (default 10)")
     parser.add_argument("--rtol", **several, help="tolerances (default 1e-3, 1e-5, ... 1e-11); may repeat")
@@ -47,11 +47,11 @@ def options(known: argparse.Namespace, families: Sequence[Family]) -> dict[str, 
     """What was given, as arguments of ``compare.solvers.study.study``."""
     family = find_family(known.problem)
     given: dict[str, Any] = {"problem": family, **inputs_given(family, known, families)}
-    for name, read in (("rtol", reading.number), ("solvers", reading.text)):
+    for name, read in (("rtol", values.number), ("solvers", values.text)):
         if getattr(known, name) is not None:
-            given[name] = reading.several(name, getattr(known, name), read)
+            given[name] = values.several(name, getattr(known, name), read)
     if known.t_end is not None:
-        given["t_end"] = (reading.as_written if known.exact else reading.number)(known.t_end, "t-end")
+        given["t_end"] = (values.as_written if known.exact else values.number)(known.t_end, "t-end")
     if known.max_evaluations is not None:
-        given["max_evaluations"] = reading.whole(known.max_evaluations, "max-evaluations", "number of evaluations")
+        given["max_evaluations"] = values.whole(known.max_evaluations, "max-evaluations", "number of evaluations")
     return given

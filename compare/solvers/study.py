@@ -19,6 +19,7 @@ from compare.study import family_of, inputs_shown, problems_of
 from reference import __version__
 from reference.arithmetic.exact import as_number, exact, positive
 from reference.family import Family
+from reference.problems.families import USUAL
 from reference.routes.agreement import ROUTES
 
 if TYPE_CHECKING:
@@ -39,7 +40,7 @@ TINY, HUGE = sys.float_info.min, sys.float_info.max
 
 
 def study(
-    problem: Family | str = "pendulum",
+    problem: Family | str = USUAL,
     t_end: Any = None,
     rtol: Sequence[float] = QUICK_RTOL,
     solvers: Sequence[str] | None = None,

@@ -6,35 +6,26 @@ import math
 from typing import TYPE_CHECKING
 
 from compare.show import text_table
-from compare.show.render import Tables
-from compare.show.text_table import Column, Grid, Section
+from compare.show.page import field_names
+from compare.show.study_page import study_page
+from compare.show.text_table import Column, Grid, Table
+from compare.solvers.records import EventCell, SolverCell, SolverEntry
 from compare.solvers.solver import CALLS
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
 
     from compare.measure.records import Case
-    from compare.solvers.records import EventCell, SolverCell, SolverStudy
+    from compare.show.page import Page
+    from compare.show.study_page import Columns
+    from compare.solvers.records import SolverStudy
 
-__all__ = ["COLUMNS", "TABLES", "sections"]
+__all__ = ["COLUMNS", "page", "tables"]
 
-COLUMNS = {
-    "solvers": ("solver", "package", "version", "install", "call", "dial", "counts"),
-    "error_vs_rtol": (
-        "solver",
-        "rtol",
-        "used",
-        "case",
-        "max_error",
-        "end_error",
-        "velocity_error",
-        "evaluations",
-        "seconds",
-        "failure",
-        "said",
-        "stopped",
-    ),
-    "events": ("solver", "rtol", "case", "expected", "matched", "spurious", "max_error", "first_only", "failure"),
+COLUMNS: Columns = {
+    "solvers": field_names(SolverEntry),
+    "error_vs_rtol": field_names(SolverCell),
+    "events": field_names(EventCell),
 }
 OTHER = "^"
 _NO_STATES = "- means that the solver failed or was stopped; what it said is in the last table"
@@ -43,7 +34,7 @@ _EVENTS_NOTE = "n of m means that it found n of the m passages; +k that it found
 TOLERANCES = {"rtol", "tol"}
 
 
-def sections(study: SolverStudy, width: int = 100) -> Iterator[Section]:
+def tables(study: SolverStudy, width: int = 100) -> Iterator[Table]:
     """The readable tables: who was asked, then amplitude by amplitude what they answered, then what they said."""
     yield from _who(study, width)
     for case in study.cases:
@@ -56,19 +47,19 @@ def sections(study: SolverStudy, width: int = 100) -> Iterator[Section]:
     yield from _said(study, width)
 
 
-def _who(study: SolverStudy, width: int) -> Iterator[Section]:
+def _who(study: SolverStudy, width: int) -> Iterator[Table]:
     here = [entry for entry in study.solvers if entry.version is not None]
     if here:
         rows = [(entry.solver, entry.version or "", entry.call) for entry in here]
         columns = Column("solver", left=True), Column("version", left=True), Column("call", left=True)
-        yield Section("solvers", "Solvers, and how each is called", (text_table.folded(columns, rows, width),))
+        yield Table("solvers", "Solvers, and how each is called", (text_table.folded(columns, rows, width),))
     missing = {entry.package: entry.install for entry in study.solvers if entry.version is None}
     if missing:
         labels = Column("package", left=True), Column("what installs it", left=True)
-        yield Section("missing-solvers", "Missing", (Grid(labels, tuple(missing.items())),))
+        yield Table("missing-solvers", "Missing", (Grid(labels, tuple(missing.items())),))
 
 
-def _cells(study: SolverStudy, cells: Sequence[SolverCell], case: Case, width: int) -> Iterator[Section]:
+def _cells(study: SolverStudy, cells: Sequence[SolverCell], case: Case, width: int) -> Iterator[Table]:
     at = case.label
     dials = {entry.solver: entry.dial for entry in study.solvers}
     other = any(map(_is_other, cells, (dials[cell.solver] for cell in cells)))
@@ -104,7 +95,7 @@ def _other_dials(dials: dict[str, str], cells: Sequence[SolverCell]) -> dict[str
     return found
 
 
-def _events(events: Sequence[EventCell], case: Case, width: int) -> Section:
+def _events(events: Sequence[EventCell], case: Case, width: int) -> Table:
     at = case.label
 
     def entry(event: EventCell) -> str:
@@ -120,7 +111,7 @@ def _events(events: Sequence[EventCell], case: Case, width: int) -> Section:
     return _table(f"events-{text_table.slug(at)}", title, events, entry, width, notes)
 
 
-def _said(study: SolverStudy, width: int) -> Iterator[Section]:
+def _said(study: SolverStudy, width: int) -> Iterator[Table]:
     """Failures, warnings and tolerances of their own: one row for all tolerances at which a solver said the same."""
     dials = {entry.solver: entry.dial for entry in study.solvers}
     said: dict[tuple[str, str], list[float]] = {}
@@ -137,7 +128,7 @@ def _said(study: SolverStudy, width: int) -> Iterator[Section]:
     asked = sorted({cell.rtol for cell in study.error_vs_rtol}, reverse=True)
     rows = [(who, _runs([asked.index(rtol) for rtol in at], asked), what) for (who, what), at in said.items()]
     columns = Column("solver", left=True), Column("rtol", left=True), Column("what it said", left=True)
-    yield Section("said", "What the solvers said", (text_table.folded(columns, rows, width),))
+    yield Table("said", "What the solvers said", (text_table.folded(columns, rows, width),))
 
 
 def _runs(places: Sequence[int], asked: Sequence[float]) -> str:
@@ -158,7 +149,7 @@ def _table(
     text: Callable[..., str],
     width: int,
     notes: Sequence[str] = (),
-) -> Section:
+) -> Table:
     """Solvers down, tolerances across, over as many grids as the width needs."""
     found = {(cell.solver, cell.rtol): text(cell) for cell in cells}
     solvers = list(dict.fromkeys(cell.solver for cell in cells))
@@ -174,7 +165,7 @@ def _table(
         grids = [build(part) for part in _parts(tolerances, parts)]
         if all(text_table.text_width(one) <= width for one in grids):
             break
-    return Section(name, title, tuple(grids), "\n".join(notes))
+    return Table(name, title, tuple(grids), "\n".join(notes))
 
 
 def _parts(tolerances: Sequence[float], count: int) -> list[Sequence[float]]:
@@ -196,5 +187,6 @@ def _count(value: int | None) -> str:
     return "-" if value is None else str(value)
 
 
-TABLES = Tables(sections, COLUMNS, prefix="solvers-")
-"""How a study of solvers is shown."""
+def page(study: SolverStudy) -> Page:
+    """A study of solvers."""
+    return study_page(study, tables, COLUMNS, prefix="solvers-")

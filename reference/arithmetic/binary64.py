@@ -7,19 +7,16 @@ its ``repr`` is "0.0", and ``math.ldexp`` gives zero instead of it.
 from __future__ import annotations
 
 import struct
+import sys
 from decimal import Context, Decimal
 from fractions import Fraction
 from typing import Any
-
-import numpy as np
 
 __all__ = [
     "BINARY64_BITS",
     "bits_of",
     "exact_value",
     "hexadecimal",
-    "in_order",
-    "is_negative_zero",
     "is_subnormal",
     "nearest",
     "number_of",
@@ -27,8 +24,6 @@ __all__ = [
     "pattern",
     "rounded",
     "shortest",
-    "unsigned_zeros",
-    "with_subnormals",
 ]
 
 BINARY64_BITS = 53
@@ -44,8 +39,8 @@ NORMAL = 2.0**-1022
 NORMAL_EXPONENTS = 1000
 SIGN = 1 << 63
 LEADING = 1 << 52
-PLACES = {np.dtype(np.float16): (10, 5), np.dtype(np.float32): (23, 8), np.dtype(np.float64): (52, 11)}
-"""Bits of the significand, without the leading one, and of the exponent."""
+PLACES = {2: (10, 5), 4: (23, 8), 8: (52, 11)}
+"""Bits of the significand, without the leading one, and of the exponent, in a number of so many bytes."""
 
 
 def rounded(mantissa: int, exponent: int, bits: int, min_exponent: int | None = None) -> tuple[int, int]:
@@ -112,46 +107,15 @@ def exact_value(value: Any) -> Fraction:
     """A finite float of Python's or NumPy's as the rational it is."""
     if isinstance(value, float) and abs(value) >= NORMAL:
         return Fraction(*value.as_integer_ratio())
-    dtype = np.dtype(type(value)) if isinstance(value, np.floating) else np.dtype(np.float64)
-    if dtype not in PLACES:
+    stored = struct.pack("=d", value) if isinstance(value, float) else value.tobytes()
+    if len(stored) not in PLACES:
         return Fraction(*(int(part) for part in value.as_integer_ratio()))
-    places, width = PLACES[dtype]
-    bits = int.from_bytes(np.asarray(value, dtype).astype(dtype.newbyteorder("<")).tobytes(), "little")
+    places, width = PLACES[len(stored)]
+    bits = int.from_bytes(stored, sys.byteorder)
     field, size = (bits >> places) & ((1 << width) - 1), bits & ((1 << places) - 1)
     exponent = max(field, 1) - (1 << (width - 1)) + 1 - places
     size = (size | 1 << places if field else size) * (-1 if bits >> (places + width) else 1)
     return Fraction(size << exponent) if exponent >= 0 else Fraction(size, 1 << -exponent)
-
-
-def with_subnormals(values: np.ndarray) -> bool:
-    """Whether an array of float16, float32 or float64 holds a subnormal number."""
-    places, width = PLACES[values.dtype.newbyteorder("=")]
-    bits = values.astype(values.dtype.newbyteorder("=")).view(f"u{values.dtype.itemsize}")
-    fields, sizes = (bits >> places) & ((1 << width) - 1), bits & ((1 << places) - 1)
-    return bool(np.any((fields == 0) & (sizes != 0)))
-
-
-def is_negative_zero(values: Any) -> np.ndarray:
-    """Where numbers are -0.0; never where they are no float64."""
-    numbers = np.asarray(values)
-    found: np.ndarray = (
-        numbers.view(np.uint64) == SIGN if numbers.dtype == np.float64 else np.zeros(numbers.shape, bool)
-    )
-    return found
-
-
-def unsigned_zeros(values: Any) -> np.ndarray:
-    """Numbers, as an array, with +0.0 for every -0.0."""
-    negative = is_negative_zero(values)
-    return np.where(negative, 0.0, values) if negative.any() else np.asarray(values)
-
-
-def in_order(values: np.ndarray) -> np.ndarray:
-    """Integers in the order of the numbers, and equal where those are; numbers that are no float64 as they are."""
-    if values.dtype != np.float64:
-        return values
-    bits = values.view(np.int64)
-    return np.where(bits < 0, np.iinfo(np.int64).min - bits, bits)
 
 
 def is_subnormal(value: float) -> bool:

@@ -5,13 +5,14 @@ from __future__ import annotations
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
-import heyoka as hy
+from reference.packages import required
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
 __all__ = ["hy", "not_kept", "parameter_rows"]
 
+hy = required("heyoka", by="Taylor's method")
 hy.set_logger_level_error()
 
 

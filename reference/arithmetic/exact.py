@@ -9,15 +9,14 @@ from __future__ import annotations
 import math
 import operator
 import re
+import sys
 from collections.abc import Iterable, Mapping, Set
 from decimal import Decimal
 from fractions import Fraction
 from numbers import Rational
-from typing import Any
+from typing import Any, NamedTuple
 
-import numpy as np
-
-from reference.arithmetic.binary64 import exact_value, nearest, with_subnormals
+from reference.arithmetic.binary64 import exact_value, nearest
 from reference.names import said, short
 
 __all__ = ["as_number", "counted", "exact", "exact_array", "expansion", "positive", "rational_root", "spelled"]
@@ -33,6 +32,28 @@ MAX_DEPTH = 32
 """Axes that an array may have."""
 MAX_DIGITS = 4000
 """Digits that the numerator or the denominator of an input may have, so that every input can be printed exactly."""
+SINGLE = (float, str, Rational, Decimal)
+"""What is one number, be it a good one or not, and no array."""
+
+
+class Classes(NamedTuple):
+    """NumPy's classes of what is given for a number; none where nobody has imported NumPy, as nothing is of them."""
+
+    array: Any = ()
+    masked: Any = ()
+    floating: Any = ()
+    not_real: Any = ()
+
+
+NONE = Classes()
+
+
+def _numpys(value: Any) -> Classes:
+    """NumPy's classes that a value may be of; none for Python's own numbers."""
+    np = None if type(value) in (float, int, Decimal) else sys.modules.get("numpy")
+    if np is None:
+        return NONE
+    return Classes(np.ndarray, np.ma.MaskedArray, np.floating, (np.bool_, np.complexfloating, np.timedelta64))
 
 
 def exact(value: Any, name: str = "value") -> Fraction:
@@ -60,16 +81,17 @@ def _exact(value: Any, name: str) -> Fraction:
     if isinstance(value, str):
         return _spelled_number(value, name)
     _refuse_masked(value, name)
-    if isinstance(value, (bool, np.bool_, complex, np.complexfloating, np.timedelta64)):
+    numpys = _numpys(value)
+    if isinstance(value, (bool, complex, numpys.not_real)):
         raise TypeError(f"{name} is {value!r}, which is not a real number; {ACCEPTED}.")
-    if isinstance(value, (Rational, np.integer)):
+    if isinstance(value, Rational):
         return Fraction(int(value.numerator), int(value.denominator))
-    if isinstance(value, np.ndarray) and value.ndim == 0:
+    if isinstance(value, numpys.array) and value.ndim == 0:
         return _exact(value[()], name)
     if isinstance(value, Decimal) and value.is_finite():
         return _spelled_number(str(value), name)
-    if isinstance(value, (float, np.floating, Decimal)):
-        if isinstance(value, Decimal) or not np.isfinite(value):
+    if isinstance(value, (float, numpys.floating, Decimal)):
+        if isinstance(value, Decimal) or not abs(value) < math.inf:
             raise ValueError(f"{name} is {value}, which is not finite; {ACCEPTED}.")
         return exact_value(value)
     raise TypeError(f"{name} is of type {type(value).__name__}; {ACCEPTED}.")
@@ -77,7 +99,7 @@ def _exact(value: Any, name: str) -> Fraction:
 
 def _refuse_masked(values: Any, name: str) -> None:
     """A masked element is no number."""
-    if isinstance(values, np.ma.MaskedArray):
+    if isinstance(values, _numpys(values).masked):
         raise TypeError(f"{name} is a masked array, whose elements need not be numbers; {ACCEPTED}.")
 
 
@@ -101,9 +123,14 @@ def exact_array(values: Any, name: str = "value") -> tuple[list[Fraction], tuple
     Raises:
         ValueError: ``values`` is empty or ragged, or one of them is not finite.
         TypeError: ``values`` is or holds something else, such as bytes, dates, a mapping or a set.
+        ModuleNotFoundError: ``values`` is no number and no list of numbers, and NumPy is not installed.
     """
-    if isinstance(values, (str, Rational, float, Decimal)):
+    if isinstance(values, SINGLE):
         return [exact(values, name)], ()
+    if isinstance(values, (list, tuple)) and values and all(isinstance(value, SINGLE) for value in values):
+        return [exact(value, name) for value in values], (len(values),)
+    from reference.arithmetic.arrays import np, with_subnormals
+
     _refuse_no_sequence(values, name)
     try:
         array = values if isinstance(values, np.ndarray) else np.array(_listed(values), dtype=object)
@@ -165,7 +192,7 @@ def counted(value: Any, name: str, most: int, what: str = "", least: int = 0) ->
 
 def _integer(value: Any, name: str, least: int, most: int | None, accepted: str) -> int:
     try:
-        count = least - 1 if isinstance(value, (bool, np.bool_)) else operator.index(value)
+        count = least - 1 if isinstance(value, bool) else operator.index(value)
     except TypeError:
         count = least - 1
     if count < least or (most is not None and count > most):

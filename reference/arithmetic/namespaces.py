@@ -6,9 +6,8 @@ arithmetic has.  ``m.number(q)`` turns an exact rational into one of them, round
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING, Any
-
-import numpy as np
 
 from reference.arithmetic.balls import BALL, Ball, ComplexBall
 from reference.arithmetic.calculus import mpmath_integral, mpmath_root
@@ -72,24 +71,32 @@ class Mpmath:
 
 
 class Numpy:
-    """NumPy arrays and scalars."""
+    """NumPy arrays and scalars; NumPy is imported with the first function that is asked for."""
 
-    sin = staticmethod(np.sin)
-    cos = staticmethod(np.cos)
-    tan = staticmethod(np.tan)
-    asin = staticmethod(np.arcsin)
-    acos = staticmethod(np.arccos)
-    atan = staticmethod(np.arctan)
-    sinh = staticmethod(np.sinh)
-    cosh = staticmethod(np.cosh)
-    tanh = staticmethod(np.tanh)
-    exp = staticmethod(np.exp)
-    log = staticmethod(np.log)
-    sqrt = staticmethod(np.sqrt)
+    sin: Any
+    cos: Any
+    tan: Any
+    asin: Any
+    acos: Any
+    atan: Any
+    sinh: Any
+    cosh: Any
+    tanh: Any
+    exp: Any
+    log: Any
+    sqrt: Any
+
+    def __getattr__(self, name: str) -> Any:
+        if name not in type(self).__annotations__:
+            raise AttributeError(f"NumPy's arithmetic has no {name}.")
+        from reference.arithmetic.arrays import np
+
+        setattr(self, name, getattr(np, name))
+        return getattr(np, name)
 
     @staticmethod
     def pi() -> float:
-        return float(np.pi)
+        return math.pi
 
     @staticmethod
     def power(x: Any, exponent: Fraction) -> Any:

@@ -38,6 +38,17 @@ class Parser(argparse.ArgumentParser):
         super().__init__(*args, **{"allow_abbrev": False, **kwargs})
         self._negative_number_matcher = SIGNED  # argparse's own knows -1 and -1.5 only
 
+    def add_argument(self, *words: Any, **told: Any) -> argparse.Action:
+        """Add an option or an argument.
+
+        Raises:
+            ValueError: there is one of this name, which an input of a family takes for itself.
+        """
+        try:
+            return super().add_argument(*words, **told)
+        except argparse.ArgumentError:
+            raise ValueError(f"{words[0]} is an option of its own; an input of another name is accepted.") from None
+
     def parse_known_args(self, args: Any = None, namespace: Any = None) -> Any:
         """Parse the words; an unknown one is an error already here, where the options in its place are known.
 

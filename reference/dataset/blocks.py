@@ -1,6 +1,6 @@
 """One block of work: the proven limbs of a stretch of a row, and how far the other routes agree with them.
 
-Finished blocks of an unfinished build, in a folder beside the output, so that a long build can go on.
+The finished blocks of a build are kept in a folder beside the output until it is whole, so that a long one can go on.
 """
 
 from __future__ import annotations
@@ -8,6 +8,7 @@ from __future__ import annotations
 import hashlib
 import io
 import os
+import pickle
 import re
 import zipfile
 from contextlib import contextmanager, suppress
@@ -27,7 +28,7 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from reference.command.marked import Marked
-    from reference.layout import Block
+    from reference.layout import Block, Layout
 
 __all__ = [
     "LIMBS",
@@ -42,6 +43,7 @@ __all__ = [
     "partial",
     "place_of",
     "prove",
+    "require_portable",
 ]
 
 IDENTITY = re.compile(r"[0-9a-f]{64}")
@@ -215,6 +217,20 @@ def prove(block: Block, bits: int) -> np.ndarray:
         bits,
     )
     return np.array(found, dtype=np.float64).reshape(len(block.arguments), -1, LIMBS)
+
+
+def require_portable(layouts: Sequence[Layout], executor: str, jobs: int) -> None:
+    """Refuse layouts that cannot be given to other processes, where these are to work on them.
+
+    Raises:
+        ValueError: one holds a function that stands in another or has no name.
+    """
+    for layout in layouts if jobs > 1 or executor != "process" else ():
+        try:
+            pickle.dumps(layout)
+        except (pickle.PicklingError, AttributeError, TypeError) as error:
+            accepted = "functions at the top of a module are accepted, or --jobs 1"
+            raise ValueError(f"{layout.path} cannot be given to other processes: {error}; {accepted}.") from None
 
 
 def compare(block: Block, route: str) -> tuple[list[float], list[int]]:

@@ -16,14 +16,14 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from reference.command.executors import opened, results
-from reference.dataset.blocks import PlaceError, Result, compute, partial, place_of
-from reference.dataset.catalogue import PROFILES
+from reference.dataset.blocks import PlaceError, Result, compute, partial, place_of, require_portable
+from reference.dataset.catalogue import PROFILES, is_family_name
 from reference.dataset.checksums import CHECKSUMS, checksums, note_checksum, require_notable
 from reference.dataset.claims import attributes
 from reference.dataset.errors import DatasetError
 from reference.dataset.files import destination, replacing, sha256, temporaries
 from reference.dataset.writer import writing
-from reference.names import is_grid_file, unknown
+from reference.names import is_grid_file, short, unknown
 from reference.routes.agreement import ROUTES
 from reference.version import __version__
 
@@ -66,6 +66,10 @@ def build(
     """
     if plan.profile not in PROFILES and not is_grid_file(plan.profile):
         raise ValueError(f"{unknown('profile', plan.profile, PROFILES)[:-1]}, and names of grid files.")
+    for family in plan.families:
+        if not is_family_name(family):
+            raise ValueError(f"a family of the plan is called '{short(family)}'; MODULE:NAME is accepted.")
+    require_portable([group.layout for group in plan.groups], executor, jobs)
     target = destination(out)
     if target.name == CHECKSUMS:
         raise OSError(f"'{out}' is the list of checksums beside the datasets; choose another output path.")
@@ -182,7 +186,7 @@ def _write(plan: Plan, target: Path, finished: Partial, made_with: Mapping[str, 
         with replacing(target) as temporary:
             with writing(temporary, plan) as writer:
                 _fill(plan, writer, finished)
-                fingerprint = writer.finish(__version__, plan.profile, made_with)
+                fingerprint = writer.finish(__version__, plan, made_with)
             digest = sha256(temporary)
             note_checksum(target, None)
         note_checksum(target, digest)
@@ -215,6 +219,9 @@ def _require_checked(trajectories: dict[tuple[str, int, str], list[int]]) -> Non
     for (path, _, row), checked in trajectories.items():
         most = served.setdefault((path, row), [0] * len(ROUTES))
         most[:] = [max(a, b) for a, b in zip(most, checked, strict=True)]
+    for (path, row), most in served.items():
+        if not any(most):
+            raise ArithmeticError(f"{row} of {path} was compared with no route; {' or '.join(ROUTES)} has to reach it.")
     for (path, element, row), checked in trajectories.items():
         for route, serves, here in zip(ROUTES, served[path, row], checked, strict=True):
             if serves and not here:

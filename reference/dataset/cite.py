@@ -7,9 +7,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from reference.dataset.reader import Dataset
 
-__all__ = ["FORMATS", "cite"]
-
-FORMATS = ("bibtex", "text")
+__all__ = ["cite"]
 
 
 def cite(dataset: Dataset, form: str = "bibtex") -> str:
@@ -22,7 +20,7 @@ def cite(dataset: Dataset, form: str = "bibtex") -> str:
     title, version = dataset.attrs["title"], dataset.attrs["version"]
     creators, mark = dataset.attrs["creators"], f"sha256:{dataset.fingerprint}"
     year = str(dataset.provenance.get("date", RELEASED[version]))[:4]
-    profile = f"{dataset.attrs['profile']} profile"
+    profile = f"{dataset.attrs['profile']} profile" + f" of {' and '.join(dataset.families)}" * bool(dataset.families)
     if form == "text":
         return f"{creators} ({year}). {title}. Version {version}, {profile}. Fingerprint {mark}."
     fields = {

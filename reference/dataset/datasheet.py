@@ -81,7 +81,7 @@ and with this package, which checks the file first:
 
 ```python
 import reference
-found = reference.load("{name}")["{variable}"]
+found = reference.load("{name}"{families})["{variable}"]
 print(found.value, found.tail, found.units)
 ```
 
@@ -122,6 +122,7 @@ def datasheet(dataset: Dataset, group: str | None = None) -> str:
         "example": _example(dataset),
         "required": REQUIRED_DIGITS,
         "citation": cite(dataset),
+        "families": f", families={list(dataset.families)!r}" if dataset.families else "",
         "variable": next(variable.name for variable in dataset.values() if not variable.is_input),
     }
     contents = [f"- `/{name}`: {dataset.groups[name]['long_name']}" for name in dataset.groups]

@@ -8,8 +8,6 @@ parameters and each dataset, ``/provenance`` left out:
   little-endian bytes of its elements in C order.
 
 JSON is ASCII with sorted keys and no spaces; a line ends in a line feed.
-
-What a file says, read in a defined order: its objects, their dimensions, and the fingerprint of it all.
 """
 
 from __future__ import annotations
@@ -22,7 +20,8 @@ import h5py
 import numpy as np
 from h5py import h5a, h5o
 
-from reference.arithmetic.binary64 import hexadecimal, is_negative_zero
+from reference.arithmetic.arrays import is_negative_zero
+from reference.arithmetic.binary64 import hexadecimal
 from reference.dataset.attributes import refusal, text_of, value_of
 from reference.dataset.errors import DatasetError
 from reference.dataset.schema import PROVENANCE

@@ -22,15 +22,17 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from reference.arithmetic.exact import exact
-from reference.dataset.catalogue import LAYOUTS
+from reference.dataset.catalogue import LAYOUTS, YOUR_OWN, layouts_of, spelled
 from reference.dataset.plan import Plan
 from reference.layout import Group
 from reference.names import is_grid_file, said, short, unknown
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
     from fractions import Fraction
 
-    from reference.layout import Coordinate
+    from reference.family import Family
+    from reference.layout import Coordinate, Layout
 
 __all__ = ["MAX_NUMBERS", "plan_from"]
 
@@ -41,13 +43,16 @@ RANGE = ("start", "stop", "count")
 BESIDES = ("path", "taylor_elements")
 
 
-def plan_from(path: str) -> Plan:
+def plan_from(path: str, families: Sequence[Family | str] = ()) -> Plan:
     """The plan that a TOML file describes; its profile is the name of the file.
+
+    It may name groups of ``families`` that are not ours, each a Family, or its name as MODULE:NAME or FILE.py:NAME.
 
     Raises:
         ValueError: the file is not there, is not named or written as TOML, or a group, parameter or input in it is
-            missing, unknown, twice there or not acceptable.
-        TypeError: ``path`` is no text.
+            missing, unknown, twice there or not acceptable, or a family is.
+        FileNotFoundError, ImportError: the module of a family cannot be imported.
+        TypeError: ``path`` is no text, or ``families`` hold something else.
     """
     if not isinstance(path, str):
         raise TypeError(f"the grid file is of type {type(path).__name__}; its name as text is accepted.")
@@ -63,19 +68,20 @@ def plan_from(path: str) -> Plan:
     tables = asked.pop("group", [])
     if asked or not isinstance(tables, list) or not tables or not all(isinstance(table, dict) for table in tables):
         raise ValueError(f"the grid file '{path}' must hold one table [[group]] or more, and nothing else.")
-    groups = tuple(_group(table) for table in tables)
+    own = layouts_of(families)
+    layouts = {layout.path.strip("/"): layout for layout in (*own, *LAYOUTS)}
+    groups = tuple(_group(table, layouts) for table in tables)
     paths = [group.layout.path for group in groups]
     for twice in paths:
         if paths.count(twice) > 1:
             raise ValueError(f"the group {twice} is there {paths.count(twice)} times; once is accepted.")
-    return Plan(Path(path).name, groups)
+    return Plan(Path(path).name, groups, spelled(families) if any(group.layout in own for group in groups) else ())
 
 
-def _group(table: dict[str, Any]) -> Group:
-    layouts = {layout.path.strip("/"): layout for layout in LAYOUTS}
+def _group(table: dict[str, Any], layouts: dict[str, Layout]) -> Group:
     name = table.get("path")
     if not isinstance(name, str) or name.strip("/") not in layouts:
-        raise ValueError(unknown("group", str(name), layouts))
+        raise ValueError(f"{unknown('group', str(name), layouts)[:-1]}; {YOUR_OWN}.")
     layout = layouts[name.strip("/")]
     given = {key: value for key, value in table.items() if key not in BESIDES}
     wanted = {coordinate.name: coordinate for coordinate in (*layout.parameters, *layout.given)}

@@ -15,9 +15,9 @@ import h5py
 import numpy as np
 from h5py import h5d, h5l, h5o, h5z
 
-from reference.arithmetic.binary64 import is_negative_zero
+from reference.arithmetic.arrays import is_negative_zero
 from reference.dataset.attributes import TYPES, bounded, refusal, says, text_of, texts
-from reference.dataset.catalogue import PROFILES
+from reference.dataset.catalogue import PROFILES, YOUR_OWN, is_family_name
 from reference.dataset.claims import free_attributes, limbs_fault, measurement_fault
 from reference.dataset.fingerprint import dimensions, parameters_of
 from reference.dataset.plan import monotonic
@@ -31,6 +31,7 @@ from reference.dataset.schema import (
     arrays,
     chunks,
     exact_texts,
+    families_in,
     group_attributes,
     limb_axis,
     root_attributes,
@@ -50,8 +51,8 @@ FINGERPRINT = re.compile(r"[0-9a-f]{64}")
 DATE = re.compile(r"\d{4}-\d\d-\d\dT\d\d:\d\d:\d\d\+00:00")
 
 
-def inspect(file: h5py.File, size: int) -> Inspection:
-    """Compare an open file of ``size`` bytes with the schema that it names.
+def inspect(file: h5py.File, size: int, own: tuple[Layout, ...] = ()) -> Inspection:
+    """Compare an open file of ``size`` bytes with the schema that it names, and the groups of the user's families.
 
     Raises:
         DatasetError: an object is not what the schema says; the message names it.
@@ -61,7 +62,7 @@ def inspect(file: h5py.File, size: int) -> Inspection:
     if version not in SCHEMAS:
         read = ", ".join(f"'{known}'" for known in SCHEMAS)
         raise refusal(file, f"has schema version '{short(version)}'; the versions {read} are read")
-    return Inspection(file, size, SCHEMAS[version])
+    return Inspection(file, size, SCHEMAS[version], own)
 
 
 class Inspection:
@@ -72,18 +73,18 @@ class Inspection:
         layouts: those of its groups, in the order of the schema.
     """
 
-    def __init__(self, file: h5py.File, size: int, schema: Schema) -> None:
-        self._file, self._size, self.schema = file, size, schema
+    def __init__(self, file: h5py.File, size: int, schema: Schema, own: tuple[Layout, ...]) -> None:
+        self._file, self._size, self.schema, self._known = file, size, schema, (*schema.layouts, *own)
         self._addresses: dict[int, str] = {}
         self._dims: dict[str, tuple[str, ...]] = {}
         self._decimals: dict[str, str] = {}
         self.layouts = self._walk()
 
     def _walk(self) -> tuple[Layout, ...]:
-        self._root()
+        families = self._root()
         self._array(self._member(self._file, LIMB, h5py.Dataset), limb_axis(), {LIMB: TAIL_LIMBS})
         variants: dict[str, list[Layout]] = {}
-        for layout in self.schema.layouts:
+        for layout in self._known:
             variants.setdefault(layout.path, []).append(layout)
         found = self._tree(self._file, variants, {LIMB, PROVENANCE})
         if not found:
@@ -91,10 +92,16 @@ class Inspection:
         for path, names in dimensions(self._file).items():
             if names != self._dims[path]:
                 raise refusal(self._file[path], f"has not the dimension scales {', '.join(self._dims[path])}")
-        return tuple(layout for layout in self.schema.layouts if found.get(layout.path) is layout)
+        layouts = tuple(layout for layout in self._known if found.get(layout.path) is layout)
+        if any(":" in family for family in families) and set(found) <= {layout.path for layout in self.schema.layouts}:
+            raise refusal(self._file, f"names the family '{short(families[-1])}' and holds no group of one")
+        return layouts
 
-    def _root(self) -> None:
-        """What the root says, which nothing but its form and its parts among one another can confirm."""
+    def _root(self) -> tuple[str, ...]:
+        """What the root says, which nothing but its form and its parts among one another can confirm.
+
+        The families that its command names are returned.
+        """
         provenance = self._member(self._file, PROVENANCE, h5py.Group)
         self._names(provenance, set())
         date = texts(provenance).get("date", "")
@@ -107,10 +114,13 @@ class Inspection:
             raise refusal(self._file, f"is of version '{short(version)}'; {', '.join(RELEASED)} is known")
         if profile not in PROFILES and not is_grid_file(profile):
             raise refusal(self._file, f"has the profile '{short(profile)}', which is none, nor the name of a grid file")
-        expected = root_attributes(self.schema, version, profile, date)
+        named = families_in(text_of(self._file, "command")) if self.schema.names_families else ()
+        families = tuple(family for family in named if is_family_name(family))
+        expected = root_attributes(self.schema, version, profile, date, families)
         fingerprint = says(self._file, expected, {"fingerprint"}).get("fingerprint", "")
         if not (isinstance(fingerprint, str) and FINGERPRINT.fullmatch(fingerprint)):
             raise refusal(self._file, "has no attribute 'fingerprint' of 64 hexadecimal digits")
+        return families
 
     def _tree(self, group: h5py.Group, variants: dict[str, list[Layout]], besides: set[str]) -> dict[str, Layout]:
         """The layouts of the groups at and below a group, by path."""
@@ -119,7 +129,7 @@ class Inspection:
             return {here: self._group(group, variants[here])}
         below = {path[len(here) + 1 :].partition("/")[0] for path in variants if path.startswith(here + "/")}
         found: dict[str, Layout] = {}
-        for name in self._names(group, below | besides):
+        for name in self._names(group, below | besides, f"; {YOUR_OWN}"):
             if name not in besides:
                 child = self._member(group, name, h5py.Group)
                 if f"{here}/{name}" not in variants:
@@ -127,16 +137,16 @@ class Inspection:
                 found |= self._tree(child, variants, set())
         return found
 
-    def _names(self, group: h5py.Group, allowed: set[str]) -> list[str]:
+    def _names(self, group: h5py.Group, allowed: set[str], more: str = "") -> list[str]:
         count = group.id.get_num_objs()
         if count > len(allowed):
-            raise refusal(group, f"has {count} members where the schema has at most {len(allowed)}")
+            raise refusal(group, f"has {count} members where the schema has at most {len(allowed)}{more}")
         names = []
         for name in group.id:
             known = name.decode("utf-8", "backslashreplace")
             if known not in allowed:
                 sentence = unknown("name", known, sorted(allowed))
-                raise refusal(group, f"has a member that is not in the schema: {sentence[:-1]}")
+                raise refusal(group, f"has a member that is not in the schema: {sentence[:-1]}{more}")
             names.append(known)
         return names
 

@@ -7,19 +7,25 @@ from __future__ import annotations
 
 import hashlib
 import json
+import secrets
+import sys
 from dataclasses import dataclass
 from fractions import Fraction
+from pathlib import Path
+from types import FunctionType, ModuleType
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from reference.arithmetic.binary64 import hexadecimal, in_order, nearest
+from reference.arithmetic.arrays import in_order
+from reference.arithmetic.binary64 import hexadecimal, nearest
 from reference.layout import BLOCK_LENGTH
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Callable, Iterator
 
     from reference.layout import Block, Group
+    from reference.problem import Problem
 
 __all__ = ["Plan", "monotonic"]
 
@@ -32,7 +38,7 @@ def monotonic(values: np.ndarray) -> bool:
 
 @dataclass(frozen=True)
 class Plan:
-    """The groups of one dataset, and the name of the profile they make up.
+    """The groups of one dataset, the name of the profile they make up, and the families that were named for it.
 
     Raises:
         ValueError: the numbers on an axis neither rise nor fall.
@@ -40,6 +46,7 @@ class Plan:
 
     profile: str
     groups: tuple[Group, ...]
+    families: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
         for group in self.groups:
@@ -67,6 +74,32 @@ class Plan:
             described = [layout.path, repr(layout.coordinates), repr(layout.rows), group.taylor_elements]
             exact_parameters = {name: hexadecimal(nearest(Fraction(value))) for name, value in group.parameters.items()}
             digest.update(json.dumps([described, exact_parameters], sort_keys=True).encode())
+            digest.update(_program(layout.problem).encode())
             for name in sorted(group.inputs):
                 digest.update(f"{name} {group.inputs[name].size}\n".encode() + group.inputs[name].tobytes())
         return digest.hexdigest()
+
+
+def _program(problem: Callable[..., Problem]) -> str:
+    """What tells the program behind a family of the user's own from what it was, or will be, when it is changed.
+
+    That is a hash of his modules as far as they are loaded: those of the same package, or beside the same file.  Of
+    what stands in no file it is a number that never comes again.  Ours is told by its version.
+    """
+    home = sys.modules.get(problem.__module__) if isinstance(problem, (FunctionType, type)) else None
+    if home is not None and home.__name__.startswith("reference."):
+        return ""
+    modules = [one for one in [*sys.modules.values()] if isinstance(one, ModuleType)]
+    files = {one.__name__: Path(vars(one).get("__file__") or "") for one in modules}
+    if home is None or not files[home.__name__].name:
+        return secrets.token_hex()
+    package, folder = home.__name__.partition(".")[0], files[home.__name__].parent
+    own = {
+        path
+        for name, path in files.items()
+        if path.name and (name.partition(".")[0] == package or path.parent == folder)
+    }
+    digest = hashlib.sha256()
+    for path in sorted(own):
+        digest.update(hashlib.sha256(path.read_bytes()).digest())
+    return digest.hexdigest()

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -11,19 +11,22 @@ import h5py
 import numpy as np
 
 from reference.dataset.attributes import SCALE_NAMES, text_of
+from reference.dataset.catalogue import layouts_of
 from reference.dataset.checksums import check_checksum
 from reference.dataset.errors import DatasetError
 from reference.dataset.files import regular_file
 from reference.dataset.fingerprint import fingerprint, parameters_of
 from reference.dataset.inspection import SIGNATURE, inspect
-from reference.dataset.schema import LIMB, PROVENANCE, arrays
+from reference.dataset.schema import LIMB, PROVENANCE, arrays, families_in
 from reference.names import unknown
 from reference.once import cached_property
+from reference.packages import required
 
 if TYPE_CHECKING:
     import os
 
     from reference.dataset.schema import Schema
+    from reference.family import Family
     from reference.layout import Layout
 
 __all__ = ["CORE_NAME", "Dataset", "Variable", "core_path", "load"]
@@ -40,16 +43,20 @@ def core_path() -> Path:
     return installed if installed.exists() else package.parent / "data" / CORE_NAME
 
 
-def load(path: str | os.PathLike[str] | None = None) -> Dataset:
+def load(path: str | os.PathLike[str] | None = None, families: Sequence[Family | str] = ()) -> Dataset:
     """Check a dataset and return it; without a path, the core dataset that ships with the package.
 
     The checks: checksum beside the file where there is one, signature, every object and attribute against the schema,
-    every number finite, and the fingerprint over all of it.  Every published schema version is read.
+    every number finite, and the fingerprint over all of it.  Every published schema version is read, and groups of
+    ``families`` that are not ours, each a Family, or its name as MODULE:NAME or FILE.py:NAME.
 
     Raises:
         FileNotFoundError: there is no such file.
         DatasetError: it failed a check.
+        ValueError, ImportError: there is no such family, or its module cannot be imported.
+        TypeError: ``path`` is no path, or ``families`` hold something else.
     """
+    own = layouts_of(families)
     if path is None and not core_path().exists():
         raise FileNotFoundError(
             f"the core dataset '{core_path()}' does not exist; 'python -m reference build' makes it."
@@ -63,14 +70,14 @@ def load(path: str | os.PathLike[str] | None = None) -> Dataset:
         raise DatasetError(f"'{found}' cannot be read: {error.strerror}.") from None
     if start[:8] != SIGNATURE:
         raise DatasetError(f"'{found}' is not an HDF5 file.")
-    return _checked(found)
+    return _checked(found, own)
 
 
-def _checked(path: Path) -> Dataset:
+def _checked(path: Path, own: tuple[Layout, ...]) -> Dataset:
     before = _stamp(path)
     try:
         with h5py.File(path, "r") as file:
-            inspection = inspect(file, path.stat().st_size)
+            inspection = inspect(file, path.stat().st_size, own)
             schema, layouts = inspection.schema, inspection.layouts
             _check_fingerprint(file, schema)
             inspection.check_decimals()
@@ -172,6 +179,11 @@ class Dataset(Mapping[str, Variable]):
         """The SHA-256 of the content: the same for every build of the same plan."""
         return str(self.attrs["fingerprint"])
 
+    @property
+    def families(self) -> tuple[str, ...]:
+        """The families that were named when it was built."""
+        return families_in(str(self.attrs["command"]))
+
     @cached_property
     def _variables(self) -> dict[str, Variable]:
         found = {}
@@ -231,10 +243,7 @@ class Dataset(Mapping[str, Variable]):
             ImportError: xarray is not installed.
             KeyError: there is no such group.
         """
-        try:
-            import xarray
-        except ImportError:
-            raise ImportError("xarray is not installed; 'pip install horologium[xarray]' provides it.") from None
+        xarray = required("xarray", install="horologium[xarray]")
         if group is None:
             return xarray.DataTree.from_dict({name: self.to_xarray(name) for name in self.groups})
         name = group.strip("/")

@@ -5,6 +5,8 @@ A root with the scale ``limb``, groups as their layouts say, and ``/provenance``
 
 from __future__ import annotations
 
+import itertools
+import shlex
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -32,6 +34,7 @@ __all__ = [
     "arrays",
     "chunks",
     "exact_texts",
+    "families_in",
     "group_attributes",
     "limb_axis",
     "root_attributes",
@@ -42,6 +45,7 @@ LIMB = "limb"
 TAIL_LIMBS = 2
 ATTRIBUTE_LIMIT = 64_000
 """Bytes; netCDF and HDF5 tools refuse attributes of 64 KiB and more."""
+FAMILY = "--family"
 FEW = 64
 """Inputs of up to this many elements carry their decimals and hex floats as attributes."""
 RELEASED = {"0.1.0": "2026-11-23"}
@@ -80,6 +84,7 @@ class Schema:
             and a label axis has as many ``flag_values`` as ``flag_meanings``.
         monotonic_axes: whether the numbers on every axis rise or fall.
         signed_zeros: whether a zero may be stored as -0.0.
+        names_families: whether the command may name families whose groups the file holds.
     """
 
     version: str
@@ -89,9 +94,12 @@ class Schema:
     names_auxiliary: bool
     monotonic_axes: bool
     signed_zeros: bool
+    names_families: bool
 
 
-def root_attributes(schema: Schema, version: str, profile: str, date: str) -> dict[str, str]:
+def root_attributes(
+    schema: Schema, version: str, profile: str, date: str, families: Sequence[str] = ()
+) -> dict[str, str]:
     """The root attributes of a file, except for its fingerprint.
 
     Args:
@@ -99,9 +107,11 @@ def root_attributes(schema: Schema, version: str, profile: str, date: str) -> di
         version: of the program.
         profile: its name, or that of a grid file.
         date: when it was built, in ISO form; empty where that is not told.
+        families: those that were named when it was built.
     """
     numbers = "config" if profile.endswith(".toml") else "profile"
-    command = f"python -m reference build --{numbers} {profile}"
+    named = "".join(f" {FAMILY} {shlex.quote(family)}" for family in families)
+    command = f"python -m reference build --{numbers} {profile}{named}"
     found = {
         **schema.root,
         "version": version,
@@ -112,6 +122,15 @@ def root_attributes(schema: Schema, version: str, profile: str, date: str) -> di
     if schema.has_history:
         found["history"] = f"{date} {command} (horologium {version})".lstrip()
     return found
+
+
+def families_in(command: str) -> tuple[str, ...]:
+    """The families that the command of a file names."""
+    try:
+        words = shlex.split(command)
+    except ValueError:  # a quotation without an end
+        return ()
+    return tuple(word for option, word in itertools.pairwise(words) if option == FAMILY)
 
 
 def exact_texts(numbers: Sequence[float]) -> dict[str, str]:
@@ -158,7 +177,7 @@ def arrays(layout: Layout, schema: Schema) -> Iterator[Array]:
         dimension = layout.dimension_of(coordinate.name)
         yield Array(
             coordinate.name,
-            coordinate.dtype,
+            np.dtype(coordinate.dtype),
             (dimension,),
             _described(coordinate, schema),
             is_scale=coordinate.name == dimension,

@@ -8,9 +8,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from reference.arithmetic.binary64 import shortest, unsigned_zeros
+from reference.arithmetic.arrays import unsigned_zeros
+from reference.arithmetic.binary64 import shortest
 from reference.command.executors import opened, results
-from reference.dataset.blocks import LIMBS, START_BITS, compare, decimals, prove
+from reference.dataset.blocks import LIMBS, START_BITS, compare, decimals, prove, require_portable
 from reference.dataset.claims import decimal_fault, measurement_fault
 from reference.dataset.errors import DatasetError
 from reference.dataset.reader import load
@@ -20,10 +21,11 @@ from reference.routes.agreement import ROUTES, DisagreementError
 
 if TYPE_CHECKING:
     import os
-    from collections.abc import Callable, Iterator
+    from collections.abc import Callable, Iterator, Sequence
 
     from reference.dataset.reader import Dataset
     from reference.declaration import Row
+    from reference.family import Family
     from reference.layout import Block
 
 __all__ = ["Proof", "differs", "verify"]
@@ -69,18 +71,19 @@ class Proof:
 def verify(
     path: str | os.PathLike[str],
     *,
+    families: Sequence[Family | str] = (),
     jobs: int = 1,
     executor: str = "process",
     progress: Callable[[int, int], None] | None = None,
 ) -> list[Proof]:
-    """Check a file as loading does, then prove each of its values again; one Proof a variable.
+    """Check a file as loading does, ``families`` as there, then prove each of its values again; one Proof a variable.
 
     Raises:
         FileNotFoundError: there is no such file.
         DatasetError: the file failed a check before any proof.
         WorkBoundError: a value could not be decided within the bound on the working precision.
     """
-    dataset = load(path)
+    dataset = load(path, families)
     groups = [_group(dataset, layout.path) for layout in dataset.layouts]
     proofs = {
         (group.layout.path, component.quantity.name): Proof(
@@ -89,6 +92,7 @@ def verify(
         for group in groups
         for component in group.layout.variables
     }
+    require_portable([group.layout for group in groups], executor, jobs)
     total = sum(1 for group in groups for _ in group.blocks())
     with opened(executor, jobs) as pool:
         blocks = (block for group in groups for block in group.blocks())

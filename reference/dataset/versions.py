@@ -30,6 +30,7 @@ NEWEST = Schema(
     names_auxiliary=True,
     monotonic_axes=True,
     signed_zeros=False,
+    names_families=True,
 )
 
 
@@ -57,6 +58,7 @@ SECOND = replace(
     names_auxiliary=False,
     monotonic_axes=False,
     signed_zeros=True,
+    names_families=False,
 )
 
 FIRST_WORDS: dict[str, dict[str, str]] = {

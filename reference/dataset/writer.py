@@ -1,10 +1,9 @@
 """Writing the file: every dataset chunked and checksummed, filled block by block, its bytes the same every time.
 
-The file under HDF5 while it is written: a failed write must reach the caller, and HDF5 must not notice.
-
-HDF5 keeps a file open, and crashes the process at its end, when what it has cached cannot be written.  So a write
-that fails, as on a full disk, is kept in memory, where reads find it; the first error is raised after the file is
-closed.  The writer stops at the first error, so only what HDF5 had cached is ever kept.
+A failed write must reach the caller, and HDF5 must not notice: it keeps a file open, and crashes the process at its
+end, when what it has cached cannot be written.  So a write that fails, as on a full disk, is kept in memory, where
+reads find it; the first error is raised after the file is closed.  The writer stops at the first error, so only what
+HDF5 had cached is ever kept.
 """
 
 from __future__ import annotations
@@ -154,11 +153,11 @@ class Writer:
         """Add attributes to a group or dataset; a text too long for an attribute is left out."""
         _describe(self._file[path], attributes)
 
-    def finish(self, version: str, profile: str, provenance: Mapping[str, str]) -> str:
+    def finish(self, version: str, plan: Plan, provenance: Mapping[str, str]) -> str:
         """Add the root's attributes, where it all came from, and the fingerprint, which is returned."""
         _describe(self._file.create_group(PROVENANCE), provenance)
         found = fingerprint(self._file, signed_zeros=NEWEST.signed_zeros)
-        described = root_attributes(NEWEST, version, profile, provenance.get("date", ""))
+        described = root_attributes(NEWEST, version, plan.profile, provenance.get("date", ""), plan.families)
         _describe(self._file, {**described, "fingerprint": found})
         return found
 

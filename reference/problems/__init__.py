@@ -1,1 +1,1 @@
-"""The families: each module holds its equations, its closed form and its routes."""
+"""The families: each folder holds its equations, its closed form, and how the other routes read them."""

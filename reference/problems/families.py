@@ -1,29 +1,60 @@
-"""The families of problems that there are, each declared where its equations stand."""
+"""The families of problems that there are, each declared where its equations stand.
+
+A module of this folder, or ``family.py`` in a folder of it, declares a family by holding it: no list names it.
+"""
 
 from __future__ import annotations
 
 from functools import cache
+from importlib import import_module
+from pathlib import Path
+from typing import TYPE_CHECKING
 
 from reference.family import Family
 from reference.named import named
 from reference.names import unknown
-from reference.problems.cycloid import family as cycloid
-from reference.problems.descent import family as descent
-from reference.problems.pendulum import family as pendulum
-from reference.problems.polar import family as polar
-from reference.problems.tunnel import family as tunnel
 
-__all__ = ["FAMILIES", "find_family"]
+if TYPE_CHECKING:
+    from reference.problem import Problem
 
-FAMILIES = (
-    pendulum.FAMILY,
-    pendulum.LINEAR_FAMILY,
-    cycloid.FAMILY,
-    cycloid.TAUTOCHRONE_FAMILY,
-    descent.FAMILY,
-    polar.FAMILY,
-    tunnel.FAMILY,
-)
+__all__ = ["FAMILIES", "USUAL", "find_family", "usual_problem"]
+
+FIRST = ("pendulum", "cycloid", "descent", "polar", "tunnel")
+"""The order of the dataset; what is added later follows by its name."""
+
+
+def _declared() -> tuple[Family, ...]:
+    """The families of this folder, each once, in order.
+
+    Raises:
+        ValueError: two of them have the same name or the same command.
+    """
+    here = Path(__file__).parent
+    homes = {path.stem: path.stem for path in here.glob("*.py") if path.stem not in {"__init__", Path(__file__).stem}}
+    homes |= {path.parent.name: f"{path.parent.name}.family" for path in here.glob("*/family.py")}
+    later = sorted(set(homes) - set(FIRST))
+    found: list[Family] = []
+    for name in (*FIRST, *later):
+        module = import_module(f"{__package__}.{homes[name]}")
+        found += [one for one in vars(module).values() if isinstance(one, Family) and one not in found]
+    for names in ([one.name for one in found], [one.comparison.command for one in found]):
+        for name in names:
+            if names.count(name) > 1:
+                raise ValueError(f"{names.count(name)} families of {here} are called '{name}'; one is accepted.")
+    return tuple(found)
+
+
+FAMILIES = _declared()
+
+
+USUAL = FAMILIES[0].name
+"""The family of what is tried where none is named."""
+
+
+def usual_problem() -> Problem:
+    """The problem that an integrator is tried on where none is named: the first value of the usual family."""
+    family = FAMILIES[0]
+    return family.problem(**{family.comparison.varied: family.comparison.values[0]})
 
 
 @cache

@@ -1,152 +1,237 @@
-"""The Taylor route: heyoka's adaptive Taylor method in MPFR arithmetic, on the equation of motion alone."""
+"""The Taylor route: heyoka's adaptive Taylor method in MPFR arithmetic, on the equation of motion alone.
+
+A problem declares in ``by_flow`` how each of its rows is read of a flow: along it, at its events, or when a function of
+the state reaches a value.  The flow is that of the problem's own equation, or of another one that it declares, where
+the motion is regular in another variable or its start is.
+"""
 
 from __future__ import annotations
 
 import math
-from copy import copy
+from dataclasses import dataclass
 from fractions import Fraction
 from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
-from reference.arithmetic.namespaces import MPMATH, Heyoka
+from reference.arithmetic import quadrature as mpmath_quadrature
+from reference.arithmetic.dual import Dual, DualArithmetic
+from reference.arithmetic.namespaces import MPMATH
 from reference.once import cached_property
+from reference.routes import quadrature
+from reference.routes.flow import Flow, within_steps
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
     from reference.declaration import Equation
+    from reference.routes.flow import Event
 
-__all__ = ["Flow", "to_fraction"]
+    Of = Callable[["TaylorRoute"], Equation]
+    Number = Any
+    Reading = Callable[["TaylorRoute", str, Sequence[Any]], Sequence[Any]]
+    """The values of a row at its arguments, each a tuple or one number, of Fractions or of mpmath's numbers."""
 
-WORD = 64
-"""MPFR computes with whole words."""
-COMPILED = 16
-"""Equations whose compiled integrators are kept: compiling takes a hundred times as long as a short flow."""
+__all__ = ["Along", "Crossings", "Period", "Reached", "TaylorRoute", "reaches", "taylor_route"]
+
+GUARD_BITS = 16
 
 
-class Flow:
-    """The flow of a problem's equation from its start, to a tolerance of ``bits`` bits.
+class TaylorRoute:
+    """Each row of a problem as it declares it to be read of a flow, in numbers of ``bits`` bits."""
 
-    Raises ArithmeticError where heyoka does not reach the end of the grid.
-    """
+    m = MPMATH
 
-    def __init__(self, problem: Equation, bits: int) -> None:
-        from reference.arithmetic.compiler import hy
+    def __init__(self, problem: Any, bits: int) -> None:
+        self.problem, self.bits = problem, bits
+        self._once: dict[str, list[tuple[Fraction, ...]]] = {}
 
-        self._hy = hy
-        self._problem = problem
-        self._bits = WORD * -(-bits // WORD)
+    def rows(self, row: str, arguments: Sequence[Any]) -> list[tuple[Fraction, ...]]:
+        """The values of a row.
 
-    def _real(self, value: Fraction) -> Any:
-        return _real(value, self._bits)
+        Raises:
+            ValueError: the problem does not declare how the row is read of a flow.
+        """
+        if row not in self._once:
+            reading = self.problem.by_flow.get(row)
+            if reading is None:
+                raise ValueError(
+                    f"{row} of {self.problem!r} is not declared for the Taylor route; "
+                    "a reading in by_flow or a reason in the row's lacks is accepted."
+                )
+            found = [_values(values) for values in reading(self, row, arguments)]
+            if list(arguments) != [None]:
+                return found
+            self._once[row] = found
+        return self._once[row]
+
+    def value(self, row: str) -> Number:
+        """The number of a row that takes no argument."""
+        ((value,),) = self.rows(row, [None])
+        return self.m.number(value)
 
     @cached_property
-    def _variables(self) -> list[Any]:
-        return list(self._hy.make_vars(*self._problem.state_names))
+    def quadrature(self) -> Any:
+        """The solution by the quadrature route, of which what an argument or an end is can be asked."""
+        return self.problem.quadrature_form()
 
-    def _integrator(self, variational: tuple[str, ...] = (), order: int = 1, **events: Any) -> Any:
-        """An integrator at the start; one without events is a copy of what was compiled once for the equation."""
-        problem = self._problem
-        names = tuple(problem.state_names), tuple(problem.parameters)
-        compiled = _compiled.__wrapped__ if events else _compiled
-        integrator = copy(compiled(problem.derivative, *names, self._bits, variational, order, **events))
-        integrator.state[: len(problem.start)] = [self._real(value) for value in problem.start]
-        integrator.pars[:] = [self._real(value) for value in problem.parameters.values()]
-        return integrator
+    @cached_property
+    def parameters(self) -> dict[str, Number]:
+        """The problem's parameters."""
+        return {name: self.m.number(value) for name, value in self.problem.parameters.items()}
 
-    def at(
-        self, times: Sequence[Fraction], variational: Sequence[str] = (), order: int = 1
+    def flow(self, of: Of | None = None) -> Flow:
+        """The flow of the problem's equation, or of another."""
+        return Flow(self.problem if of is None else of(self), self.bits)
+
+    def states(
+        self, times: Sequence[Any], of: Of | None = None, by: tuple[str, ...] = (), order: int = 1
     ) -> list[tuple[Fraction, ...]]:
-        """The state at each time (none negative), and after it its derivatives by the named starts and parameters.
+        """``Flow.at``, kept for a while: more than one row is read of the same states."""
+        return _states(self, tuple(_fraction(time) for time in times), of, by, order)
 
-        They come order by order up to ``order``, and in each order those of the first state first.
-        """
-        moments = sorted({Fraction(0), *times})
-        integrator = self._integrator(tuple(variational), order)
-        grid = np.array([self._real(moment) for moment in moments])
-        outcome, *_, states = integrator.propagate_grid(grid)
-        if outcome != self._hy.taylor_outcome.time_limit:
-            raise ArithmeticError(f"heyoka stopped with {outcome} before the last time of {self._problem!r}.")
-        found = {
-            moment: tuple(to_fraction(value) for value in state) for moment, state in zip(moments, states, strict=True)
-        }
-        return [found[time] for time in times]
+    def guesses(self, row: str, arguments: Sequence[Any]) -> list[Fraction]:
+        """The first quantity of a row by quadrature, to half of the bits."""
+        found = quadrature.rows(self.problem.quadrature_form, row, arguments, self.bits // 2 + GUARD_BITS)
+        return [values[0] for values in found]
 
-    def zeros(self, event: Callable[[Any, Sequence[Any]], Any], until: float) -> list[Fraction]:
-        """The times in (0, until] at which a function of the state, event(m, y), crosses zero.
-
-        heyoka overlooks the next zero where the start is one; the integration with the event begins just after it.
-        """
-        crossings: list[Fraction] = []
-        crossing = self._hy.nt_event_real(
-            event(Heyoka(self._real), self._variables), lambda _ta, time, _sign: crossings.append(to_fraction(time))
-        )
-        integrator = self._integrator(nt_events=[crossing])
-        if event(MPMATH, [MPMATH.number(value) for value in self._problem.start]) == 0:
-            early = Fraction(until) / 2 ** (self._bits // 4)
-            (state,) = self.at([early])
-            integrator.state[:], integrator.time = [self._real(value) for value in state], self._real(early)
-        integrator.propagate_until(self._real(Fraction(until)))
-        return crossings
+    def corrected(
+        self, passed: Callable[..., Any], values: Sequence[Number], guesses: Sequence[Any], of: Of | None = None
+    ) -> list[Number]:
+        """When passed(m, y, problem) is each of the values, by Newton's step from guesses good to half of the bits."""
+        equation = self.problem if of is None else of(self)
+        p = {name: self.m.number(value) for name, value in equation.parameters.items()}
+        duals, found = DualArithmetic(self.m, 1), list[Any]()
+        for value, guess, state in zip(values, guesses, self.states(guesses, of), strict=True):
+            t, y = self.m.number(_fraction(guess)), [self.m.number(component) for component in state]
+            rates = equation.derivative(self.m, t, y, p)
+            moving = [Dual(x, (rate,)) for x, rate in zip(y, rates, strict=True)]
+            reached = passed(duals, moving, self.problem)
+            found.append(t + (value - reached.value) / reached.slopes[0])
+        return found
 
 
-@lru_cache(maxsize=COMPILED)
-def _compiled(
-    derivative: Callable[..., Sequence[Any]],
-    state_names: tuple[str, ...],
-    parameter_names: tuple[str, ...],
-    bits: int,
-    variational: tuple[str, ...],
-    order: int,
-    **events: Any,
-) -> Any:
-    """The integrator of an equation, its state and its parameters still to be set."""
-    from reference.arithmetic.compiler import hy, not_kept
-
-    variables = list(hy.make_vars(*state_names))
-    symbols = {name: hy.par[i] for i, name in enumerate(parameter_names)}
-    rates = [
-        rate if isinstance(rate, hy.expression) else hy.expression(rate)
-        for rate in derivative(Heyoka(lambda value: _real(value, bits)), hy.time, variables, symbols)
-    ]
-    system: Any = list(zip(variables, rates, strict=True))
-    if variational:
-        named = {**dict(zip(state_names, variables, strict=True)), **symbols}
-        system = hy.var_ode_sys(system, [named[name] for name in variational], order)
-    zero = _real(Fraction(0), bits)
-    with not_kept():
-        return hy.taylor_adaptive(
-            system,
-            [zero] * len(variables),
-            fp_type=hy.real,
-            prec=bits,
-            tol=_tolerance(bits),
-            pars=[zero] * len(symbols),
-            compact_mode=True,
-            **events,
-        )
+@lru_cache(maxsize=8)
+def taylor_route(problem: Any, bits: int) -> TaylorRoute:
+    """The route of a problem, kept for a while: what its rows share is then computed once."""
+    return TaylorRoute(problem, bits)
 
 
-def _tolerance(bits: int) -> Any:
-    """A tolerance of at most 2^-bits at which heyoka's order, ceil(1 - log(tolerance)/2), leaves 2 when divided by 4.
+@lru_cache(maxsize=8)
+def _states(
+    route: TaylorRoute, times: tuple[Fraction, ...], of: Of | None, by: tuple[str, ...], order: int
+) -> list[tuple[Fraction, ...]]:
+    return route.flow(of).at(times, by, order)
 
-    heyoka takes its step from the last two terms of the series.  From rest these have even powers of t only, and where
-    the force is even about the start, only t^2, t^6, t^10, ...: of other orders both terms could vanish, and with them
-    all control of the error.
+
+def _fraction(value: Any) -> Fraction:
+    """A Fraction, or one of mpmath's numbers as the rational that it is."""
+    return value if isinstance(value, Fraction) else mpmath_quadrature.to_fraction(value)
+
+
+def _values(found: Any) -> tuple[Fraction, ...]:
+    return tuple(_fraction(value) for value in (found if isinstance(found, (tuple, list)) else (found,)))
+
+
+@dataclass(frozen=True)
+class Along:
+    """A row that is read of the state, at(route, argument) being where on the flow.
+
+    Attributes:
+        read: (route, state) -> values, the derivatives after the state; without it the state, or of its derivatives
+            ``by`` starts and parameters those of the last order.
+        at: where on the flow an argument is; without it at the argument.
+        of: of which equation the flow is; without it of the problem's.
+        by: starts and parameters by which derivatives are taken, up to ``order``.
     """
-    order = math.ceil(1 + bits * math.log(2) / 2)
-    order += (2 - order) % 4
-    return _real(Fraction(1, 2 ** round((2 * order - 3) / math.log(2))), bits)
+
+    read: Callable[[TaylorRoute, Sequence[Number]], Any] | None = None
+    at: Callable[[TaylorRoute, Any], Any] | None = None
+    of: Of | None = None
+    by: tuple[str, ...] = ()
+    order: int = 1
+
+    def __call__(self, route: TaylorRoute, row: str, arguments: Sequence[Any]) -> Sequence[Any]:
+        del row
+        times = arguments if self.at is None else [self.at(route, argument) for argument in arguments]
+        states = route.states(times, self.of, self.by, self.order)
+        if self.read is not None:
+            return [self.read(route, [route.m.number(value) for value in state]) for state in states]
+        known = math.comb(len(self.by) + self.order - 1, len(self.by)) if self.by else 0
+        return [state[known * len(route.problem.start) :] for state in states]
 
 
-def _real(value: Fraction, bits: int) -> Any:
-    from reference.arithmetic.compiler import hy
+@dataclass(frozen=True)
+class Crossings:
+    """A row over an index: the times at which event(m, y) crosses zero, ``per_period`` times in each period.
 
-    return hy.real(value.numerator, bits) / hy.real(value.denominator, bits)
+    That is a number, or a function of the problem where its kind of motion decides.
+    """
+
+    event: Event
+    per_period: int | Callable[[Any], int]
+
+    def __call__(self, route: TaylorRoute, row: str, arguments: Sequence[int]) -> Sequence[Any]:
+        del row
+        until = route.problem.cycle() * (max(arguments) + 1.01) / self.count(route.problem)
+        times = route.flow().zeros(self.event, until)
+        return [times[index] for index in arguments]
+
+    def count(self, problem: Any) -> int:
+        """How many crossings there are in a period."""
+        return self.per_period if isinstance(self.per_period, int) else self.per_period(problem)
 
 
-def to_fraction(value: Any) -> Fraction:
-    """heyoka's MPFR number as a rational: its decimal, which reads back as the same number."""
-    return Fraction(str(value))
+@dataclass(frozen=True)
+class Period(Crossings):
+    """The period, from one crossing to the next."""
+
+    def __call__(self, route: TaylorRoute, row: str, arguments: Sequence[Any]) -> Sequence[Any]:
+        del arguments
+        first, second = super().__call__(route, row, (0, 1))
+        return [(second - first) * self.count(route.problem)]
+
+
+@dataclass(frozen=True)
+class Reached:
+    """A row of when passed(m, y, problem) is the argument, or ``to`` where there is none.
+
+    The guess is the row's own first quantity by quadrature.  ``read`` (route, time, state) gives the row's values;
+    without it it is that time alone.  A start that is at the argument is there at once.
+    """
+
+    passed: Callable[[Any, Sequence[Any], Any], Any]
+    to: Fraction = Fraction(0)
+    of: Of | None = None
+    read: Callable[[TaylorRoute, Number, Sequence[Number]], Any] | None = None
+
+    def __call__(self, route: TaylorRoute, row: str, arguments: Sequence[Any]) -> Sequence[Any]:
+        m, problem, later = route.m, route.problem, list(arguments)
+        if list(arguments) != [None]:
+            start = self.passed(m, [m.number(value) for value in problem.start], problem)
+            later = [argument for argument in arguments if m.number(argument) != start]
+        values = [m.number(self.to if argument is None else argument) for argument in later]
+        moments = route.corrected(self.passed, values, route.guesses(row, later), self.of)
+        known = dict(zip(later, moments, strict=True))
+        times = [known.get(argument, m.number(Fraction(0))) for argument in arguments]
+        if self.read is None:
+            return times
+        states = ([m.number(value) for value in state] for state in route.states(times, self.of))
+        return [self.read(route, time, state) for time, state in zip(times, states, strict=True)]
+
+
+def reaches(problem: Any, row: str, arguments: Sequence[Any]) -> bool:
+    """Whether the problem's own flow is at all arguments of a row, none negative, after at most STEPS steps.
+
+    Of a row that is read of another equation, or elsewhere, the problem itself knows.
+    """
+    reading = problem.by_flow.get(row)
+    if isinstance(reading, Crossings):
+        last = -1 if isinstance(reading, Period) else max(arguments)
+        time = Fraction(problem.cycle() * (last + 2))
+    elif isinstance(reading, Along) and reading.at is None and reading.of is None:
+        if min(arguments) < 0:
+            return False
+        time = max(arguments)
+    else:
+        return True
+    return within_steps(problem, time)

@@ -16,6 +16,7 @@ import slips
 import compare
 from compare.claims import show
 from compare.claims.frames import NUMPY, Frame, Scene
+from compare.show.render import render
 from reference import CycloidArc, Descent, Pendulum, PolarBrachistochrone, Tautochrone
 from reference.declaration import ClosedForm, Invariant, Quantity, Row, StateSpace, Trial
 from reference.problem import Problem, SeparableProblem
@@ -311,13 +312,13 @@ def test_what_a_problem_does_not_declare_is_named_and_no_claim_of_it_is_establis
         "energy not applicable: Decay(1) conserves nothing that is declared",
     ):
         assert sentence in found.verdict
-    told = json.loads(show.json_text(found))
+    told = json.loads(render(show.page(found), "json"))
     assert (told["symplectic"], told["symplecticity_defect"], told["reversible"]) == (None, None, None)
     assert set(told["not_applicable"]) == {"symplectic", "reversible", "energy"}
     assert told["not_applicable"]["energy"] == "Decay(1) conserves nothing that is declared"
     assert told["energy"]["behaviour"] == "none"
     assert compare.check(slips.rk4, order=4, problem=Decay()).claims_hold
-    assert "not_applicable" not in json.loads(show.json_text(compare.check(slips.euler)))
+    assert "not_applicable" not in json.loads(render(show.page(compare.check(slips.euler)), "json"))
 
 
 REFUSED = {

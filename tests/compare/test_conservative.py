@@ -162,7 +162,7 @@ def test_a_problem_without_canonical_variables_keeps_its_energy_too(method: Meth
 @by_name
 def test_a_problem_without_an_invariant_is_refused(method: Method) -> None:
     class Driven(RigidBody):
-        invariant = Problem.invariant
+        invariants: ClassVar[tuple[Invariant, ...]] = ()
 
     with pytest.raises(ValueError, match=f"{method.name} keeps an invariant, and rigid body has none"):
         march(method, [Lane(Driven(), 64, Fraction(1, 64), (64,))], FLOAT64)

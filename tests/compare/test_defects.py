@@ -13,7 +13,7 @@ from compare.measure.scores import score
 from compare.measure.truth import Course
 from compare.methods import find
 from reference import Descent, Pendulum, PolarBrachistochrone, Tautochrone
-from reference.problems.cycloid import CycloidalPendulum
+from reference.problems.cycloid.tautochrone import CycloidalPendulum
 from reference.problems.polar.paths import PolarByPsi
 
 if TYPE_CHECKING:

@@ -12,6 +12,7 @@ from pathlib import Path
 import pytest
 
 from compare.__main__ import main
+from compare.show import render
 from compare.sources.errata import show
 from compare.sources.errata.entries import ENTRIES, ERRATA, NOTICED
 from compare.sources.errata.evidence import REPORT, THESIS, near, rounds_to
@@ -31,8 +32,8 @@ from compare.sources.errata.report_series import (
 from compare.sources.errata.sound import SOUND
 from compare.sources.errata.spelled import spelled
 from reference.arithmetic.precision import mp
-from reference.problems.descent import Descent
-from reference.problems.pendulum import Pendulum
+from reference.problems.descent.problem import Descent
+from reference.problems.pendulum.problem import Pendulum
 
 ROOT = Path(__file__).parents[2]
 each = pytest.mark.parametrize("erratum", ERRATA, ids=lambda one: f"{one.source[:4]}-{one.place}")
@@ -153,7 +154,7 @@ def test_remarks_have_no_check_and_say_so(capsys):
 
 
 def test_latex_says_which_compiler_and_font_it_needs():
-    shown = show.render(show.records(ENTRIES), "latex")
+    shown = render.render(show.page(show.records(ENTRIES)), "latex")
     assert shown.startswith("% needs \\usepackage{booktabs}")
     assert "XeLaTeX or LuaLaTeX" in shown.split("\\begin{table}")[0]
     assert max(part.count("where &") for part in shown.split("\\end{table}")) == 6
@@ -203,7 +204,7 @@ def test_the_slips_of_section_4_cost_table_12_what_the_page_says():
         for series in ((PHI_B_PRINTED, PHI_C_PRINTED, BETA_PRINTED), (PHI_B, PHI_C, BETA))
     ]
     assert [round(float(error), 4) for error in largest] == [0.0351, 0.0116]
-    page = show.render(show.records(ENTRIES), "markdown")
+    page = render.render(show.page(show.records(ENTRIES)), "markdown")
     assert "0.0351" in page
     assert "0.0116" in page
     assert round(float(approximation(8.01, PHI_B_PRINTED, PHI_C_PRINTED, BETA_PRINTED)), 7) == -0.0104871
@@ -231,11 +232,11 @@ def test_the_misprinted_polar_form_would_sweep_what_the_page_says():
     with mp.workdps(15):
         whole = mp.degrees(2 * mp.quad(slope, mp.linspace(0, mp.pi, 5)))
         assert rounds_to(whole, "74.87")
-    assert "74.87°" in show.render(show.records(ENTRIES), "markdown")
+    assert "74.87°" in render.render(show.page(show.records(ENTRIES)), "markdown")
 
 
 def test_the_times_of_the_race_are_what_the_page_says():
-    page = show.render(show.records(ENTRIES), "markdown")
+    page = render.render(show.page(show.records(ENTRIES)), "markdown")
     for curve in ("cycloid", "quarter_ellipse", "circular_arc", "quartic", "line"):
         assert f"{Descent(curve, g='9.81').values('descent_time', [None], 1).item():.4f} s" in page
 
@@ -247,14 +248,14 @@ def test_the_page_is_what_the_command_prints(capsys):
 
 @pytest.mark.parametrize("form", ["text", "markdown", "latex"])
 def test_every_erratum_stands_in_what_people_read(form):
-    shown = show.render(show.records(ENTRIES), form)
+    shown = render.render(show.page(show.records(ENTRIES)), form)
     for one in ENTRIES:
         assert one.place.split(",")[0] in shown
     assert f"{sum(one.source == THESIS for one in ERRATA)} of" in shown
 
 
 def test_text_fits_a_narrow_terminal():
-    lines = show.render(show.records(ENTRIES), "text", 80).splitlines()
+    lines = render.render(show.page(show.records(ENTRIES)), "text", 80).splitlines()
     assert (
         max(len(line) for line in lines if not line.startswith(("Errata:", "Held and found right:", "Noticed in")))
         <= 80
@@ -263,10 +264,10 @@ def test_text_fits_a_narrow_terminal():
 
 def test_programs_read_the_same_records():
     found = show.records(ENTRIES)
-    read = json.loads(show.render(found, "json"))
+    read = json.loads(render.render(show.page(found), "json"))
     assert read["entries"] == found
     assert [one["place"] for one in read["noticed"]] == [one.place for one in NOTICED]
-    rows = list(csv.DictReader(io.StringIO(show.render(found, "csv"))))
+    rows = list(csv.DictReader(io.StringIO(render.render(show.page(found), "csv"))))
     assert [row["place"] for row in rows] == [one.place for one in (*ENTRIES, *NOTICED)]
     assert {(row["kind"], row["confirmed"]) for row in rows} == {("erratum", "yes"), ("right", "yes"), ("noticed", "")}
 

@@ -13,7 +13,7 @@ from compare.measure.scores import score
 from compare.measure.truth import Course
 from compare.methods import find
 from reference import Cycloid, Pendulum, PolarBrachistochrone, Tautochrone, Tunnel
-from reference.problems.cycloid import CycloidalPendulum
+from reference.problems.cycloid.tautochrone import CycloidalPendulum
 
 if TYPE_CHECKING:
     from reference.problem import Problem

@@ -17,9 +17,8 @@ from reference.arithmetic.precision import ctx, mp
 from reference.orbits import apart
 from reference.problems.polar.equations import POINT_MASS
 from reference.problems.polar.radial import RadialOscillation
-from reference.problems.polar.taylor import System, equations_of
 from reference.routes import enclosure
-from reference.routes.taylor import Flow
+from reference.routes.flow import Flow, System
 
 Q = Fraction
 BITS = 200
@@ -152,7 +151,7 @@ def test_along_the_flow_from_any_state_the_phase_is_uniform_and_the_amplitude_st
     names = problem.state_names
     start = Q(z), Q(rate), Q(0)
     times = [Q(k, 4) for k in range(8)]
-    system = System(equations_of(problem.field).motion, names, start, problem.parameters)
+    system = System(problem.derivative, names, start, problem.parameters)
     with mp.workprec(BITS), ctx.workprec(BITS):
         states = [list(map(BALL.number, state)) for state in Flow(system, BITS).at(times)]
         found = [problem.orbits().place(state) for state in states]

@@ -19,11 +19,11 @@ from compare.march.precision import precision
 from compare.measure.errors import Course
 from compare.methods import METHODS, find
 from compare.report import run as running
+from compare.report import table
 from compare.report.page import files, page
 from compare.report.problems import reported_by
 from compare.report.records import Report, WorkPoint
 from compare.report.run import Kept, Task, plan, run, work
-from compare.report.table import TABLES, sections
 from compare.show import render
 from reference import Descent, Pendulum
 from reference.dataset.blocks import BusyError, PlaceError, partial
@@ -208,7 +208,7 @@ def test_a_report_on_curves_is_kept_and_goes_on_and_names_its_figures(tmp_path, 
     assert len(again) == len(wanted.tasks) - 2
     assert all(point.failure == "" and point.max_error > 0 for point in report.points)
     assert (tmp_path / "report" / "descent-curve-quartic-evaluations.svg").is_file()
-    titles = [section.title for section in sections(report)]
+    titles = [found.title for found in table.tables(report)]
     assert any(title.startswith("Evaluations, descent, curve = quartic: ") for title in titles)
     assert any("polar-z, z0 = 0.5" in title and ", in rad, is below" in title for title in titles)
 
@@ -295,7 +295,7 @@ MADE = Report(
 
 
 def rows(title):
-    (found,) = (section for section in sections(MADE) if section.title.startswith(title))
+    (found,) = (found for found in table.tables(MADE) if found.title.startswith(title))
     return {row[0]: row[1:] for grid in found.grids for row in grid.rows}
 
 
@@ -320,8 +320,8 @@ def test_the_page_holds_every_table_and_every_figure_that_is_written():
     linked = re.findall(r"!\[[^]]*\]\(([^)]*)\)", text)
     assert linked == ["pendulum-theta0-1.0-evaluations.svg", "pendulum-theta0-1.0-seconds.svg"]
     assert set(linked) < set(written)
-    for section in sections(MADE):
-        assert section.title.split(":")[0].replace("_", r"\_") in text
+    for one in table.tables(MADE):
+        assert one.title.split(":")[0].replace("_", r"\_") in text
     assert "lazy: evaluations of something else" in text
     assert "unasked" not in text
 
@@ -369,5 +369,5 @@ def test_a_mistake_is_one_sentence_exit_code_2_and_leaves_nothing(words, says, t
 
 
 def test_the_tables_fit_a_terminal():
-    text = render.render(MADE, TABLES, "text", 100)
+    text = render.render(table.page(MADE), "text", 100)
     assert max(map(len, text.splitlines())) <= 110

@@ -19,8 +19,9 @@ from compare.files import lines as numbered_lines
 from compare.files.columns import Columns
 from compare.files.score import Rows
 from reference import Pendulum
-from reference.problems.cycloid import Cycloid, Tautochrone
-from reference.problems.polar import PolarBrachistochrone
+from reference.problems.cycloid.problem import Cycloid
+from reference.problems.cycloid.tautochrone import Tautochrone
+from reference.problems.polar.problem import PolarBrachistochrone
 
 ROOT = Path(__file__).parents[2]
 P = Pendulum(1.0)

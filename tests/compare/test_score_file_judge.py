@@ -16,10 +16,11 @@ from compare.files.show import marked
 from reference import Pendulum
 from reference.arithmetic.precision import mp
 from reference.problem import SeparableProblem
-from reference.problems.cycloid import Cycloid, CycloidalPendulum, Tautochrone
-from reference.problems.descent import Descent
+from reference.problems.cycloid.problem import Cycloid
+from reference.problems.cycloid.tautochrone import CycloidalPendulum, Tautochrone
+from reference.problems.descent.problem import Descent
 from reference.problems.pendulum.linear import LinearPendulum
-from reference.problems.polar import PolarBrachistochrone
+from reference.problems.polar.problem import PolarBrachistochrone
 
 P = Pendulum(1.0)
 TIMES = [Fraction(j, 4) for j in range(41)]

@@ -20,7 +20,7 @@ from compare.files.fast_path import Sift
 from compare.files.judge import Judge
 from compare.files.scales import Point, Scales
 from reference import Pendulum
-from reference.problems.polar import PolarBrachistochrone
+from reference.problems.polar.problem import PolarBrachistochrone
 
 if TYPE_CHECKING:
     from compare.files.record import Running

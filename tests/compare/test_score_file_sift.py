@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from compare.__main__ import main
-from compare.files import bounds, fast_path
+from compare.files import fast_path
 from compare.files.arrays import Sliced, chunks
 from compare.files.chunk import Chunk, Doubles, Row
 from compare.files.columns import Columns
@@ -17,8 +17,9 @@ from compare.files.crew import Crew
 from compare.files.exact_rows import Times
 from compare.files.fast_path import BoundError, Sift
 from compare.files.judge import Judge
-from compare.files.show import json_text
+from compare.files.show import page
 from compare.files.written import of_decimal
+from compare.show.render import render
 from reference import Pendulum
 
 SWING, TURNING = Pendulum(1.0), Pendulum(3, omega0=7)
@@ -44,7 +45,7 @@ def judged(problem: Pendulum, parts: list[Chunk], *, sifted: bool, keep: int = 9
         found = points(part)()
         running.add(found)
         count += len(found)
-    return json_text(judge.score(running, "as written")), count
+    return render(page(judge.score(running, "as written")), "json"), count
 
 
 def verlet(rows: int, h: float) -> np.ndarray:
@@ -186,7 +187,7 @@ def test_no_exact_row_is_outside_its_bounds(problem):
     edge = 2 * math.sqrt(9.81) * np.cos(y[::5, 0] / 2) * (1 + 10.0 ** RANDOM.uniform(-17, -1, 80))
     y[::5, 1] = edge * RANDOM.choice([-1, 1], 80)
     numbers = np.column_stack([t, y])
-    found = bounds.bounder(problem).bounds(numbers, 0.0)
+    found = problem.state_bounds().bounds(numbers, 0.0)
     judge = Judge(problem)
     judge.expect([53 * math.log10(2)])
     points = judge.some(range(400), chunked(numbers, 400)[0].rows())
@@ -196,7 +197,7 @@ def test_no_exact_row_is_outside_its_bounds(problem):
 
 def test_the_bounds_are_near_what_they_bound():
     table = spoiled(SWING, 1e-4)
-    found = bounds.bounder(SWING).bounds(table, 0.0)
+    found = SWING.state_bounds().bounds(table, 0.0)
     points = Judge(SWING).points(chunked(table, len(table))[0].rows())
     phases = np.array([abs(point.phase_error) for point in points])
     assert np.all(found.found.phase - phases < 1e-11)
@@ -204,7 +205,7 @@ def test_the_bounds_are_near_what_they_bound():
 
 
 def test_a_bound_that_is_wrong_is_an_error_and_not_a_result(monkeypatch):
-    monkeypatch.setattr("compare.files.bounds.SLACK", -1e-3)
+    monkeypatch.setattr("reference.problems.pendulum.bounds.SLACK", -1e-3)
     with pytest.raises(BoundError, match="was found outside its bounds"):
         judged(SWING, chunked(verlet(2000, 1 / 64)), sifted=True)
 

@@ -14,7 +14,7 @@ from compare.__main__ import main
 from reference import Pendulum
 from reference.arithmetic.precision import mp
 from reference.names import short
-from reference.problems.polar import PolarBrachistochrone
+from reference.problems.polar.problem import PolarBrachistochrone
 
 P = Pendulum(1.0)
 T = np.arange(0, 600) / 64

@@ -16,7 +16,7 @@ from compare.measure.errors import Course, fit_order, score_errors, score_method
 from compare.methods import find
 from reference import Pendulum
 from reference.arithmetic.precision import mp
-from reference.problems.cycloid import CycloidalPendulum
+from reference.problems.cycloid.tautochrone import CycloidalPendulum
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

@@ -17,7 +17,7 @@ from compare.show.text_table import text_width
 from compare.solvers import plot
 from compare.solvers.records import EventCell, SolverCell, SolverEntry, SolverStudy
 from compare.solvers.study import QUICK_LIMIT, QUICK_RTOL
-from compare.solvers.table import TABLES, sections
+from compare.solvers.table import page, tables
 
 CASE = made_case(1.0)
 RTOL = tuple(float(f"1e-{k}") for k in range(3, 14))
@@ -80,22 +80,22 @@ def made_study():
 
 
 STUDY = made_study()
-TEXT = render.render(STUDY, TABLES, "text")
+TEXT = render.render(page(STUDY), "text")
 
 
-def section(name):
-    return next(found for found in sections(STUDY) if found.name.startswith(name))
+def table(name):
+    return next(found for found in tables(STUDY) if found.name.startswith(name))
 
 
 def row(name, solver):
-    return [value for grid in section(name).grids for line in grid.rows if line[0] == solver for value in line[1:]]
+    return [value for grid in table(name).grids for line in grid.rows if line[0] == solver for value in line[1:]]
 
 
 def test_every_table_has_a_row_a_solver_and_a_column_a_tolerance():
     for name in ("error-vs-rtol", "evaluations", "seconds"):
-        labels = [column.label for grid in section(name).grids for column in grid.columns[1:]]
+        labels = [column.label for grid in table(name).grids for column in grid.columns[1:]]
         assert labels == [f"1e-{k:02}" for k in range(3, 14)]
-        assert {line[0] for grid in section(name).grids for line in grid.rows} == {
+        assert {line[0] for grid in table(name).grids for line in grid.rows} == {
             "good.RK",
             "bad.BDF",
             "raised.RK",
@@ -106,55 +106,55 @@ def test_every_table_has_a_row_a_solver_and_a_column_a_tolerance():
 
 def test_a_failure_is_a_dash_and_its_message_stands_once_with_all_its_tolerances():
     assert row("error-vs-rtol", "bad.BDF") == row("evaluations", "bad.BDF") == ["-"] * len(RTOL)
-    said = [line for line in section("said").grids[0].rows if line[0] == "bad.BDF"]
+    said = [line for line in table("said").grids[0].rows if line[0] == "bad.BDF"]
     assert [line[1:] for line in said] == [("1e-03 to 1e-13", "no convergence at all")]
 
 
 def test_a_tolerance_of_the_solvers_own_is_marked_and_a_step_is_none():
-    assert any(line[1] == "1e-08 to 1e-13" for line in section("said").grids[0].rows)
+    assert any(line[1] == "1e-08 to 1e-13" for line in table("said").grids[0].rows)
     marked = [value.endswith("^") for value in row("error-vs-rtol", "raised.RK")]
     assert marked == [rtol < 1e-7 for rtol in RTOL]
     assert not any(value.endswith("^") for value in row("error-vs-rtol", "steps.Verlet"))
-    assert "step stands for rtol with steps.Verlet" in section("error-vs-rtol").note
-    assert any(line[2] == "worked with rtol = 1.0e-07" for line in section("said").grids[0].rows)
+    assert "step stands for rtol with steps.Verlet" in table("error-vs-rtol").note
+    assert any(line[2] == "worked with rtol = 1.0e-07" for line in table("said").grids[0].rows)
 
 
 def test_events_that_were_missed_or_invented_are_counted_beside_the_error():
     assert row("events", "raised.RK")[0] == "1.4e-04 7 of 9 +2"
     assert row("events", "good.RK")[0] == row("events", "steps.Verlet")[0] == "1.4e-04"
-    assert "the first passage only: steps.Verlet" in section("events").note
-    assert "good.RK" not in section("events").note
+    assert "the first passage only: steps.Verlet" in table("events").note
+    assert "good.RK" not in table("events").note
 
 
 def test_missing_packages_stand_once_each_with_what_installs_them():
-    assert section("missing").grids[0].rows == (("absent", "pip install absent"),)
-    assert "absent.A" not in [line[0] for line in section("solvers").grids[0].rows]
+    assert table("missing").grids[0].rows == (("absent", "pip install absent"),)
+    assert "absent.A" not in [line[0] for line in table("solvers").grids[0].rows]
 
 
 @pytest.mark.parametrize("width", [80, 100, 120])
 def test_tables_keep_to_the_width_they_are_given(width):
-    for found in sections(STUDY, width):
+    for found in tables(STUDY, width):
         assert all(text_width(grid) <= width for grid in found.grids)
 
 
 def test_programs_get_every_number_and_nulls_where_there_is_none():
-    found = json.loads(render.render(STUDY, TABLES, "json"))
+    found = json.loads(render.render(page(STUDY), "json"))
     first, failed = (
         next(r for r in found["tables"]["error_vs_rtol"] if r["solver"] == s) for s in ("good.RK", "bad.BDF")
     )
     assert (first["max_error"], first["evaluations"]) == (0.02, 398)
     assert (failed["max_error"], failed["used"], failed["failure"]) == (None, None, "no convergence at all")
     assert [r["version"] for r in found["tables"]["solvers"]][-2:] == [None, None]
-    files = render.files(STUDY, TABLES, "csv")
+    files = render.files(page(STUDY), "csv")
     assert set(files) == {f"solvers-pendulum-{name}.csv" for name in ("solvers", "error_vs_rtol", "events")}
     lines = list(csv.DictReader(io.StringIO(files["solvers-pendulum-events.csv"].decode())))
     assert (lines[0]["matched"], lines[0]["first_only"]) == ("9", "false")
 
 
 @pytest.mark.parametrize("form", ["markdown", "latex"])
-def test_documents_have_every_section(form):
-    found = render.render(STUDY, TABLES, form)
-    for part in sections(STUDY):
+def test_documents_have_every_table(form):
+    found = render.render(page(STUDY), form)
+    for part in tables(STUDY):
         assert part.title.split(",")[0] in found
 
 

@@ -16,10 +16,16 @@ from made_study import METHODS, made_case, made_study
 from compare.measure.records import Defect, Growth, OwnPeriod, Phase, Study
 from compare.show import render, text_table
 from compare.show import study as table
-from compare.show.text_table import Column, Grid, Section
+from compare.show.study_page import rows
+from compare.show.text_table import Column, Grid, Table
 
 STUDY = made_study()
 DEFAULT_TABLES = ("error_vs_n", "order", "energy_drift")
+
+
+def shown(study: Study, form: str = "text", width: int = 100) -> str:
+    """The study's page in a format."""
+    return render.render(table.page(study), form, width)
 
 
 def _strict_json(text: str) -> dict:
@@ -31,20 +37,20 @@ def _strict_json(text: str) -> dict:
 
 @pytest.mark.parametrize("width", [80, 100, 120])
 def test_text_fits_the_width_of_the_terminal(width):
-    lines = table.render(STUDY, "text", width).splitlines()
+    lines = shown(STUDY, "text", width).splitlines()
     titles = ("Error against", "Order,", "Energy")
     assert max(len(line) for line in lines if not line.startswith(titles)) <= width
 
 
 def test_every_method_heads_two_columns_of_errors_once():
-    sections = {section.name: section for section in table.sections(STUDY, 100)}
-    errors = sections["error-vs-n-theta0-1-0-rad"]
+    named = {one.name: one for one in table.tables(STUDY, 100)}
+    errors = named["error-vs-n-theta0-1-0-rad"]
     groups = [column.group for part in errors.grids for column in part.columns if column.group]
     assert sorted(groups) == sorted([*METHODS, *METHODS])
 
 
 def test_methods_of_one_order_stand_side_by_side():
-    grids = next(table.sections(STUDY, 100)).grids
+    grids = next(table.tables(STUDY, 100)).grids
     assert [dict.fromkeys(c.group for c in part.columns if c.group) for part in grids] == [
         dict.fromkeys(["euler", "symplectic_euler", "symplectic_euler_adjoint"]),
         dict.fromkeys(["midpoint", "heun", "verlet", "position_verlet", "implicit_midpoint"]),
@@ -53,47 +59,47 @@ def test_methods_of_one_order_stand_side_by_side():
 
 
 def test_text_shows_three_digits_and_the_local_order():
-    text = table.render(made_study(methods=("verlet",)))
+    text = shown(made_study(methods=("verlet",)))
     cell = made_study(methods=("verlet",)).error_vs_n[1]
     assert re.search(rf"^ *256  3\.91e-02  {cell.max_error:.2e} 2\.00$", text, re.MULTILINE)
 
 
 def test_a_cell_at_the_floor_is_marked_and_the_mark_explained():
-    text = table.render(made_study(methods=("suzuki4",)))
+    text = shown(made_study(methods=("suzuki4",)))
     assert re.search(r"^1048576 .* \*$", text, re.MULTILINE)
     assert "* means rounding" in text
-    assert "*" not in table.render(made_study(methods=("euler",))).partition("Error against")[2]
+    assert "*" not in shown(made_study(methods=("euler",))).partition("Error against")[2]
 
 
 def test_a_method_with_too_few_cells_has_no_fitted_order():
-    text = table.render(made_study(methods=("suzuki4", "rk4")))
+    text = shown(made_study(methods=("suzuki4", "rk4")))
     assert re.search(r"^suzuki4 +4 +- +2  -$", text, re.MULTILINE)
     assert re.search(r"^rk4 +4  3\.9987 ± 0\.0021 +7  256 to 16384$", text, re.MULTILINE)
 
 
 def test_each_amplitude_has_its_own_tables():
-    text = table.render(made_study(theta0=(1.0, 2.5)))
+    text = shown(made_study(theta0=(1.0, 2.5)))
     assert text.count("Error against N, theta0 = 2.5 rad") == 1
     assert text.count("Energy drift, theta0 = 1.0 rad") == 1
 
 
 def test_numbers_that_are_not_finite_print_as_words():
-    row = next(line for line in table.render(made_study(methods=("euler",))).splitlines() if " 7.81e-02 " in line)
+    row = next(line for line in shown(made_study(methods=("euler",))).splitlines() if " 7.81e-02 " in line)
     assert row.split() == ["128", "7.81e-02", "nan", "-"]
 
 
 def test_the_header_says_problem_reference_and_engine():
-    head = table.render(STUDY).partition("Error against")[0]
+    head = shown(STUDY).partition("Error against")[0]
     for fact in ("g = 9.81 m/s^2", "theta0 = 1.0 rad", "balls, mpmath, heyoka", "float64"):
         assert fact in head
 
 
 def test_json_has_the_promised_keys_and_every_bit():
-    found = _strict_json(table.render(STUDY, "json"))
+    found = _strict_json(shown(STUDY, "json"))
     assert list(found) == ["problem", "parameters", "reference", "engine", "tables"]
     assert list(found["tables"]) == ["error_vs_n", "order", "energy_drift"]
     for name in found["tables"]:
-        keys = [key if key != "case" else "theta0" for key in render.COLUMNS[name]]
+        keys = [key if key != "case" else "theta0" for key in table.COLUMNS[name]]
         records = getattr(STUDY, name)
         assert len(found["tables"][name]) == len(records)
         for row, record in zip(found["tables"][name], records, strict=True):
@@ -106,13 +112,29 @@ def test_json_has_the_promised_keys_and_every_bit():
                     assert value == (list(expected) if isinstance(expected, tuple) else expected)
 
 
+def test_programs_are_given_these_fields_of_the_records():
+    where = "method n h case"
+    assert {name: " ".join(fields) for name, fields in table.COLUMNS.items()} == {
+        "error_vs_n": f"{where} max_error end_error local_order floor evaluations rms_error max_velocity_error "
+        "end_velocity_error rms_velocity_error digits jacobians rounding",
+        "order": "method case declared_order fitted_order spread cells_used n_range rounding",
+        "energy_drift": f"{where} invariant max_drift_above_rest max_drift_relative slope_per_period slope_interval "
+        "rounding",
+        "phase": f"{where} max_phase_error end_phase_error max_amplitude_error end_amplitude_error lost phase_rounding "
+        "amplitude_rounding",
+        "growth": f"{where} quantity exponent interval law windows starts floor",
+        "period": f"{where} period relative_error rounding",
+        "defects": f"{where} symplecticity reversibility symplecticity_rounding reversibility_rounding",
+    }
+
+
 def test_json_is_empty_lists_where_nothing_was_found():
     empty = dataclasses.replace(STUDY, error_vs_n=(), order=(), energy_drift=())
-    assert _strict_json(table.render(empty, "json"))["tables"] == {"error_vs_n": [], "order": [], "energy_drift": []}
+    assert _strict_json(shown(empty, "json"))["tables"] == {"error_vs_n": [], "order": [], "energy_drift": []}
 
 
 def test_csv_blocks_each_have_a_header_and_full_precision():
-    blocks = table.render(STUDY, "csv").split("\n\n")
+    blocks = shown(STUDY, "csv").split("\n\n")
     assert [block.partition(",")[0] for block in blocks] == ["table"] * 3
     for name, block in zip(DEFAULT_TABLES, blocks, strict=True):
         rows = list(csv.DictReader(io.StringIO(block)))
@@ -125,13 +147,13 @@ def test_csv_blocks_each_have_a_header_and_full_precision():
 
 
 def test_csv_files_are_one_a_table_and_the_others_one_in_all():
-    assert list(table.files(STUDY, "csv")) == [f"pendulum-{name}.csv" for name in DEFAULT_TABLES]
+    assert list(render.files(table.page(STUDY), "csv")) == [f"pendulum-{name}.csv" for name in DEFAULT_TABLES]
     for form, name in (("text", "txt"), ("markdown", "md"), ("latex", "tex"), ("json", "json")):
-        assert table.files(STUDY, form) == {f"pendulum.{name}": table.render(STUDY, form).encode()}
+        assert render.files(table.page(STUDY), form) == {f"pendulum.{name}": shown(STUDY, form).encode()}
 
 
 def test_markdown_rows_have_as_many_cells_as_their_header():
-    tables = re.findall(r"(?:^\|.*\n)+", table.render(STUDY, "markdown"), re.MULTILINE)
+    tables = re.findall(r"(?:^\|.*\n)+", shown(STUDY, "markdown"), re.MULTILINE)
     assert len(tables) >= 4
     for found in tables:
         counts = {len(re.findall(r"(?<!\\)\|", line)) for line in found.splitlines()}
@@ -139,7 +161,7 @@ def test_markdown_rows_have_as_many_cells_as_their_header():
 
 
 def test_latex_tabulars_are_balanced_and_escaped():
-    source = table.render(made_study(theta0=(1.0, 2.0)), "latex")
+    source = shown(made_study(theta0=(1.0, 2.0)), "latex")
     body = "\n".join(line for line in source.splitlines() if not line.startswith("%"))
     assert not re.search(r"(?<![\\])_", body)
     assert body.count("$") % 2 == 0
@@ -147,20 +169,20 @@ def test_latex_tabulars_are_balanced_and_escaped():
         assert body.count(rf"\begin{{{name}}}") == body.count(rf"\end{{{name}}}")
     labels = re.findall(r"\\label\{(.*?)\}", body)
     assert len(labels) == len(set(labels))
-    for spec, rows in re.findall(r"\\begin\{tabular\}\{(\w+)\}(.*?)\\end\{tabular\}", body, re.DOTALL):
-        data = re.findall(r"^(.*) \\\\$", rows.partition(r"\midrule")[2], re.MULTILINE)
+    for spec, body_rows in re.findall(r"\\begin\{tabular\}\{(\w+)\}(.*?)\\end\{tabular\}", body, re.DOTALL):
+        data = re.findall(r"^(.*) \\\\$", body_rows.partition(r"\midrule")[2], re.MULTILINE)
         assert data
         assert {row.count("&") + 1 for row in data} == {len(spec)}
 
 
 def test_latex_sets_powers_of_ten():
-    section = Section("a", "t", (Grid((Column("x"),), (("-1.25e-05",), ("nan",))),))
-    assert r"$-1.25\times10^{-5}$ \\" in text_table.latex(section)
+    one = Table("a", "t", (Grid((Column("x"),), (("-1.25e-05",), ("nan",))),))
+    assert r"$-1.25\times10^{-5}$ \\" in text_table.latex(one)
 
 
 def test_an_unknown_format_is_refused():
     with pytest.raises(ValueError, match="'yaml' is not one of text, markdown"):
-        table.render(STUDY, "yaml")
+        shown(STUDY, "yaml")
 
 
 def extra_study(*scores: str, velocity: bool = True) -> Study:
@@ -191,38 +213,38 @@ def extra_study(*scores: str, velocity: bool = True) -> Study:
 @pytest.mark.parametrize("width", [80, 120])
 def test_every_score_fits_the_width_of_the_terminal(width):
     study = extra_study("norms", "phase", "growth", "period", "defects")
-    for section in table.sections(study, width):
-        assert max(len(line) for line in text_table.text(section).splitlines()[1:]) <= width
+    for one in table.tables(study, width):
+        assert max(len(line) for line in text_table.text(one).splitlines()[1:]) <= width
 
 
 @pytest.mark.parametrize("form", ["markdown", "latex"])
 def test_every_score_has_every_readable_form(form):
     study = extra_study("norms", "phase", "growth", "period", "defects")
-    text = table.render(study, form)
+    text = shown(study, form)
     mark = "### " if form == "markdown" else r"\caption{"
     assert text.count(mark + "Growth,") >= 3
     assert mark + "Symplecticity defect," in text
 
 
 def test_only_the_scores_that_are_wanted_are_shown():
-    titles = [section.title.partition(",")[0] for section in table.sections(extra_study("drift", "period"))]
+    titles = [one.title.partition(",")[0] for one in table.tables(extra_study("drift", "period"))]
     assert titles == ["Energy drift", "Energy trend", "Period"]
-    assert [section.title.partition(",")[0] for section in table.sections(extra_study())] == []
+    assert [one.title.partition(",")[0] for one in table.tables(extra_study())] == []
 
 
 def test_norms_are_of_place_and_velocity_with_digits_and_work():
-    text = table.render(extra_study("norms"), width=120)
+    text = shown(extra_study("norms"), width=120)
     cell = next(cell for cell in extra_study().error_vs_n if (cell.method, cell.n) == ("rk4", 512))
     numbers = (cell.max_error, cell.rms_error, cell.end_error, cell.max_velocity_error)
     for number in numbers:
         assert f"{number:.2e}" in text
     assert f"{cell.digits:.1f}" in text
     assert "max v" in text
-    assert "max v" not in table.render(extra_study("norms", velocity=False), width=120)
+    assert "max v" not in shown(extra_study("norms", velocity=False), width=120)
 
 
 def test_phase_and_amplitude_are_marked_where_states_were_lost():
-    text = table.render(extra_study("phase"))
+    text = shown(extra_study("phase"))
     assert re.search(r"^ *128 .* 1\.25e-03! +1\.25e-03!$", text, re.MULTILINE)
     assert re.search(r"^ *512 .* 1\.25e-03 +1\.25e-03$", text, re.MULTILINE)
     assert "! means that some states are on no orbit" in text
@@ -230,7 +252,7 @@ def test_phase_and_amplitude_are_marked_where_states_were_lost():
 
 
 def test_growth_has_a_law_an_exponent_and_a_mark_for_rounding():
-    text = table.render(extra_study("growth"))
+    text = shown(extra_study("growth"))
     assert re.search(r"^verlet +t +1\.00 ± 0\.25\*", text, re.MULTILINE)
     assert re.search(r"^rk4 +t\^2 +1\.10 ± 0\.25 ", text, re.MULTILINE)
     assert re.search(r"^rk4 +- +1\.20 ± 0\.25", text, re.MULTILINE)
@@ -243,7 +265,7 @@ def blank(growth):
 @pytest.mark.parametrize("form", ["text", "markdown"])
 def test_where_no_growth_is_known_one_sentence_says_what_it_takes(form):
     study = extra_study("growth")
-    text = table.render(dataclasses.replace(study, growth=tuple(map(blank, study.growth))), form)
+    text = shown(dataclasses.replace(study, growth=tuple(map(blank, study.growth))), form)
     assert text.count("Growth,") == 1
     assert "no law can be told; one takes at least 32 periods (a later end of the march: --t-end), 128 steps" in text
     assert "nan" not in text
@@ -252,7 +274,7 @@ def test_where_no_growth_is_known_one_sentence_says_what_it_takes(form):
 def test_one_growth_that_is_known_is_shown_among_others_that_are_not():
     study = extra_study("growth")
     first, *others = study.growth
-    text = table.render(dataclasses.replace(study, growth=(first, *map(blank, others))))
+    text = shown(dataclasses.replace(study, growth=(first, *map(blank, others))))
     assert text.count("Growth,") == 3
     assert "nan means fewer than 32 periods" in text
 
@@ -261,27 +283,27 @@ def test_a_law_takes_no_periods_where_there_are_none():
     study = extra_study("growth")
     case = dataclasses.replace(study.cases[0], cycle="s")
     growth = tuple(dataclasses.replace(blank(growth), case=case) for growth in study.growth)
-    (section,) = table.sections(dataclasses.replace(study, cases=(case,), growth=growth))
-    assert section.title.endswith("no law can be told; one takes at least 128 steps, and errors that are numbers")
+    (one,) = table.tables(dataclasses.replace(study, cases=(case,), growth=growth))
+    assert one.title.endswith("no law can be told; one takes at least 128 steps, and errors that are numbers")
 
 
 def test_a_defect_that_no_method_has_is_no_column():
-    symplecticity, reversibility = table.sections(extra_study("defects"))
+    symplecticity, reversibility = table.tables(extra_study("defects"))
     assert [column.label for column in symplecticity.grids[0].columns] == ["N", "h [s]", "verlet"]
     assert [column.label for column in reversibility.grids[0].columns] == ["N", "h [s]", "verlet", "rk4"]
 
 
 def test_machine_forms_hold_all_that_was_scored_whatever_is_shown():
     study = extra_study("error")
-    found = _strict_json(table.render(study, "json"))["tables"]
-    assert list(found) == list(render.COLUMNS)
+    found = _strict_json(shown(study, "json"))["tables"]
+    assert list(found) == list(table.COLUMNS)
     assert found["phase"][0] == {
         "method": "verlet", "n": 128, "h": 0.078125, "theta0": 1.0, "max_phase_error": 1.25e-3,
         "end_phase_error": -1e-3, "max_amplitude_error": 2.5e-4, "end_amplitude_error": 1e-4, "lost": 1,
             "phase_rounding": 0.0, "amplitude_rounding": 0.0,
     }  # fmt: skip
     assert found["defects"][-1]["symplecticity"] is None
-    assert list(table.files(study, "csv")) == [f"pendulum-{name}.csv" for name in render.COLUMNS]
+    assert list(render.files(table.page(study), "csv")) == [f"pendulum-{name}.csv" for name in table.COLUMNS]
 
 
 def test_cases_of_several_forms_share_their_columns_in_machine_forms():
@@ -291,7 +313,7 @@ def test_cases_of_several_forms_share_their_columns_in_machine_forms():
     )
     study = made_study(methods=("rk4",), n=(128,))
     cells = tuple(dataclasses.replace(study.error_vs_n[0], case=case) for case in (one, other))
-    found = render.rows(dataclasses.replace(study, cases=(one, other), error_vs_n=cells), "error_vs_n")
+    found = rows(dataclasses.replace(study, cases=(one, other), error_vs_n=cells), "error_vs_n", table.COLUMNS)
     assert [(row["form"], row["z0"], row["arc"]) for row in found] == [("z", 0.5, None), ("arc", None, 2.0)]
 
 
@@ -308,13 +330,13 @@ def test_a_case_without_a_conserved_quantity_has_no_drift():
     study = made_study(methods=("rk4",), n=(128,))
     cells = tuple(dataclasses.replace(cell, case=case) for cell in study.error_vs_n)
     bare = dataclasses.replace(study, cases=(case,), error_vs_n=cells, order=(), energy_drift=())
-    assert [section.title.partition(",")[0] for section in table.sections(bare)] == ["Error against N"]
+    assert [one.title.partition(",")[0] for one in table.tables(bare)] == ["Error against N"]
 
 
 def test_a_line_of_a_latex_heading_is_not_read_as_an_option() -> None:
     r"""`\\[s]` would ask for a vertical space of "s"."""
     columns = (text_table.Column("t [s]"), text_table.Column("error order", "[one]"), text_table.Column("*two x"))
-    text = text_table.latex(text_table.Section("name", "title", (text_table.Grid(columns, (("1", "2", "3"),)),)))
+    text = text_table.latex(text_table.Table("name", "title", (text_table.Grid(columns, (("1", "2", "3"),)),)))
     assert r"\shortstack{t\\{[s]}}" in text
     assert r"\\[" not in text
     assert r"\\*" not in text

@@ -13,7 +13,8 @@ from compare.__main__ import main
 from compare.methods import METHODS, find
 from compare.methods.order.algebraic import Q, enclose, root
 from compare.show.method import closed_form, decimal_form, describe, latex_form
-from compare.show.method_text import FORMATS, render
+from compare.show.method_text import FORMATS, page
+from compare.show.render import render
 from reference.arithmetic.precision import ctx
 
 RK4 = """\
@@ -27,7 +28,7 @@ RK4 = """\
 
 
 def shown(name: str, form: str = "text") -> str:
-    return render(describe(find(name)), form)
+    return render(page(describe(find(name))), form)
 
 
 def test_a_tableau_is_printed_as_books_print_it(capsys: pytest.CaptureFixture[str]) -> None:
@@ -122,9 +123,9 @@ def test_json_has_every_number_exactly_and_as_a_decimal() -> None:
 @pytest.mark.parametrize("method", METHODS, ids=lambda method: method.name)
 def test_every_method_can_be_shown_in_every_format(method: object) -> None:
     description = describe(method)
-    assert method.source[:20] in " ".join(render(description).split())
+    assert method.source[:20] in " ".join(render(page(description)).split())
     for form in FORMATS:
-        assert method.name in render(description, form).replace("\\_", "_")
+        assert method.name in render(page(description), form).replace("\\_", "_")
 
 
 def test_decimals_are_correctly_rounded() -> None:

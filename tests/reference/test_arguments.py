@@ -25,7 +25,7 @@ from reference.__main__ import main
 from reference.arithmetic.limbs import MAX_DIGITS, MAX_LIMBS, WorkBoundError
 from reference.problems.cycloid.arc import CycloidCurve
 from reference.problems.families import FAMILIES
-from reference.problems.pendulum import LindstedtMotion, PendulumSeries
+from reference.problems.pendulum.approximations import LindstedtMotion, PendulumSeries
 from reference.problems.polar.paths import PolarByPsi, PolarByZ
 
 HALF = Fraction(1, 2)

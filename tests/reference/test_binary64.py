@@ -9,18 +9,16 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
+from reference.arithmetic.arrays import in_order, unsigned_zeros, with_subnormals
 from reference.arithmetic.binary64 import (
     bits_of,
     exact_value,
     hexadecimal,
-    in_order,
     nearest,
     number_of,
     parts,
     pattern,
     shortest,
-    unsigned_zeros,
-    with_subnormals,
 )
 
 SPECIAL = [5e-324, 1e-310, 2.0**-1022, 2.0**-1022 - 5e-324, 1.7976931348623157e308, 1.0, 0.1, 3.0, 2.0**52 + 1]

@@ -16,7 +16,7 @@ from independent_cycloid import Descent, number
 from reference.arithmetic.limbs import WorkBoundError
 from reference.arithmetic.namespaces import BALL, MPMATH, NUMPY, Heyoka
 from reference.arithmetic.precision import ctx, mp
-from reference.problems.cycloid import Cycloid, CycloidArc
+from reference.problems.cycloid.arc import CycloidArc
 from reference.problems.cycloid.equations import (
     arc_acceleration,
     arc_energy,
@@ -26,6 +26,7 @@ from reference.problems.cycloid.equations import (
     run,
     slowness,
 )
+from reference.problems.cycloid.problem import Cycloid
 from reference.routes.agreement import ROUTES, agreement
 
 BITS = 3 * 159

@@ -13,7 +13,8 @@ from independent_descent import arc_length, passage, place
 from reference.arithmetic.limbs import WorkBoundError
 from reference.arithmetic.namespaces import NUMPY
 from reference.arithmetic.precision import mp
-from reference.problems.descent import RACE, Descent
+from reference.problems.descent.curves import RACE
+from reference.problems.descent.problem import Descent
 from reference.routes.agreement import agreement
 
 NAMES = [curve.name for curve in RACE]

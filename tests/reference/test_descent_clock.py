@@ -12,10 +12,10 @@ from independent_descent import arc_length, passage
 
 from reference.arithmetic.balls import BALL, SERIES, ComplexBall
 from reference.arithmetic.precision import ctx, mp
-from reference.problems.descent import RACE, Descent
 from reference.problems.descent.chebyshev import ChebyshevClock
 from reference.problems.descent.clock import REACH, NoChartError, Primitive, arc, clock, pieces
-from reference.problems.descent.curves import spelled_curve
+from reference.problems.descent.curves import RACE, spelled_curve
+from reference.problems.descent.problem import Descent
 from reference.problems.descent.slide import Slide
 
 SLIDES = {curve.name: Slide(curve, Fraction(0), 1) for curve in RACE}

@@ -10,7 +10,8 @@ import pytest
 from reference.arithmetic.exact import rational_root
 from reference.arithmetic.formula import Expression
 from reference.arithmetic.precision import mp
-from reference.problems.descent import RACE, Descent
+from reference.problems.descent.curves import RACE
+from reference.problems.descent.problem import Descent
 from reference.problems.descent.surds import COSINES, PI, UNKNOWN, NotExactError, Surd, exactly, surd
 
 ALONG_THE_PASSAGE = {

@@ -10,9 +10,9 @@ import pytest
 
 from reference.arithmetic.namespaces import MPMATH
 from reference.arithmetic.precision import mp
-from reference.problems.descent import Descent
 from reference.problems.descent.clock import MAX_DISCS, pieces
 from reference.problems.descent.curves import spelled_curve
+from reference.problems.descent.problem import Descent
 from reference.problems.descent.reality import unreal
 
 if TYPE_CHECKING:

@@ -9,7 +9,7 @@ import pytest
 
 from reference.__main__ import main
 from reference.command.terminal import run
-from reference.problems.descent import Descent
+from reference.problems.descent.problem import Descent
 
 VERTICAL = "a curve that is vertical there is accepted by a parameter, 'x = ...; y = ...'."
 REFUSED = {

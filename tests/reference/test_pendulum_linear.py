@@ -13,7 +13,7 @@ from independent import correct_limbs, fraction
 from reference import Pendulum
 from reference.arithmetic.namespaces import MPMATH
 from reference.arithmetic.precision import mp
-from reference.problems.pendulum import LinearPendulum
+from reference.problems.pendulum.linear import LinearPendulum
 from reference.routes.agreement import agreement
 
 PENDULUMS = (

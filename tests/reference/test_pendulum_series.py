@@ -12,7 +12,8 @@ from independent import agm_period, correct_limbs, fraction, released_state
 from reference import Pendulum
 from reference.arithmetic.namespaces import MPMATH
 from reference.arithmetic.precision import mp
-from reference.problems.pendulum import LindstedtMotion, PendulumSeries, contour, series
+from reference.problems.pendulum import contour, series
+from reference.problems.pendulum.approximations import LindstedtMotion, PendulumSeries
 from reference.routes.agreement import agreement
 
 ORDERS = (0, 1, 2, 5, 8)

@@ -16,8 +16,9 @@ from independent_polar import BITS, Amplitude, ball, complete
 from reference.arithmetic.limbs import WorkBoundError
 from reference.arithmetic.namespaces import BALL, MPMATH, NUMPY, Heyoka
 from reference.arithmetic.precision import ctx, mp
-from reference.problems.polar import PolarBrachistochrone
 from reference.problems.polar.equations import POINT_MASS
+from reference.problems.polar.paths import PolarByPsi, PolarByZ
+from reference.problems.polar.problem import PolarBrachistochrone
 from reference.problems.polar.series import surface_coefficients
 from reference.routes.agreement import agreement
 
@@ -55,6 +56,13 @@ def test_every_row_agrees_with_both_routes(problem, route):
             found = agreement(problem, row.name, arguments[row.over], route)
             assert (found is None) == (route in dict(row.lacks))
             assert found is None or min(each.digits for each in found) >= 55, row.name
+
+
+@pytest.mark.parametrize("curve", [PolarByPsi(z0="1/5"), PolarByZ(z0="1/5")], ids=repr)
+@pytest.mark.parametrize("route", ["taylor", "quadrature"])
+def test_a_path_as_a_curve_agrees_with_both_routes_where_its_slope_is_vertical_too(curve, route):
+    found = agreement(curve, "state", [Fraction(0), Fraction(1, 3), Fraction(4, 5)], route)
+    assert min(each.digits for each in found) >= 55
 
 
 @pytest.mark.parametrize("z0", [1e-6, 1e-12, 1 - 1e-9, 1 - 1e-12])

@@ -15,9 +15,9 @@ from independent_polar import Amplitude, ball
 from reference.arithmetic.limbs import WorkBoundError
 from reference.arithmetic.namespaces import BALL
 from reference.arithmetic.precision import ctx
-from reference.problems.polar import PolarBrachistochrone
 from reference.problems.polar.boundary import _approach
-from reference.problems.tunnel import Tunnel
+from reference.problems.polar.problem import PolarBrachistochrone
+from reference.problems.tunnel.problem import Tunnel
 
 BOTH = pytest.mark.parametrize("family", [PolarBrachistochrone, Tunnel])
 

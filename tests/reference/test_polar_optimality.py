@@ -12,9 +12,9 @@ from independent_polar import POINT_MASS, UNIFORM_BALL, chord_time, neighbour_ti
 
 from reference.arithmetic.namespaces import BALL
 from reference.arithmetic.precision import ctx, mp
-from reference.problems.polar import PolarBrachistochrone
 from reference.problems.polar.panels import Panels, Schedule, panels_of, periodic_ball, periodic_mpmath
-from reference.problems.tunnel import Tunnel
+from reference.problems.polar.problem import PolarBrachistochrone
+from reference.problems.tunnel.problem import Tunnel
 
 BOTH = pytest.mark.parametrize("family", [PolarBrachistochrone, Tunnel])
 PATHS = ({"z0": 0.2}, {"z0": 0.9}, {"end": (0.5, 0.4)}, {"end": (0.6, 1.9)})

@@ -23,7 +23,7 @@ from reference.__main__ import main
 from reference.arithmetic.exact import rational_root
 from reference.arithmetic.limbs import exact_decimal, exact_limbs, fixed, limbs
 from reference.arithmetic.precision import mp
-from reference.problems.pendulum import LindstedtMotion, PendulumSeries
+from reference.problems.pendulum.approximations import LindstedtMotion, PendulumSeries
 
 SPECIAL = [Fraction(k) for k in (0, 1, 2, 4, 9, 16, 25, "1/2", "1/4", "9/4", "3/5", "4/5", "5/13", "12/13", "1/3")]
 SPECIAL += [Fraction(text) for text in ("1/1024", "0.1", "4.2", "8.82", "9.81")]

@@ -15,11 +15,10 @@ import pytest
 
 import reference
 from reference import Pendulum
-from reference.__main__ import main
+from reference.__main__ import CITATIONS, main
 from reference.command.terminal import run
 from reference.dataset import catalogue
 from reference.dataset.build import build
-from reference.dataset.cite import FORMATS as CITE_FORMATS
 from reference.dataset.plan import Plan
 from reference.dataset.reader import core_path
 from reference.layout import Group
@@ -233,7 +232,7 @@ def test_show_prints_the_tree_a_group_and_a_variable(capsys, tiny):
 
 
 def test_cite_gives_version_and_fingerprint(capsys, tiny):
-    for form in CITE_FORMATS:
+    for form in CITATIONS:
         assert called("cite", tiny, "--format", form) == 0
         out = capsys.readouterr().out
         assert reference.__version__ in out
@@ -241,7 +240,7 @@ def test_cite_gives_version_and_fingerprint(capsys, tiny):
 
 
 def test_build_writes_where_it_is_told(capsys, tmp_path, monkeypatch):
-    monkeypatch.setattr(catalogue, "plan", lambda _profile: Plan("core", (Group(groups.LONG, groups.EARTH, GRID),)))
+    monkeypatch.setattr(catalogue, "plan", lambda *_: Plan("core", (Group(groups.LONG, groups.EARTH, GRID),)))
     out = tmp_path / "x.h5"
     assert called("build", "--out", out, "--jobs", 1) == 0
     assert f"fingerprint sha256:{reference.load(out).fingerprint}" in capsys.readouterr().out

@@ -21,8 +21,8 @@ from reference.dataset.reader import core_path, load
 from reference.dataset.schema import arrays
 from reference.dataset.versions import NEWEST
 from reference.layout import Coordinate, Group, Layout
-from reference.problems.pendulum import Pendulum
 from reference.problems.pendulum import family as groups
+from reference.problems.pendulum.problem import Pendulum
 
 
 def datasets(file):

@@ -15,8 +15,9 @@ from independent_cycloid import number, swing
 
 from reference.arithmetic.namespaces import MPMATH, NUMPY, Heyoka
 from reference.arithmetic.precision import mp
-from reference.problems.cycloid import Cycloid, CycloidalPendulum, Tautochrone
 from reference.problems.cycloid.equations import angular_acceleration, arc_energy, swing_energy
+from reference.problems.cycloid.problem import Cycloid
+from reference.problems.cycloid.tautochrone import CycloidalPendulum, Tautochrone
 from reference.routes.agreement import ROUTES, agreement
 
 BITS = 3 * 159

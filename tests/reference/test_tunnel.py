@@ -14,9 +14,9 @@ from independent_polar import BITS, number, rolled
 
 from reference.arithmetic.namespaces import MPMATH, NUMPY, Heyoka
 from reference.arithmetic.precision import mp
-from reference.problems.polar import PolarBrachistochrone
-from reference.problems.tunnel import Tunnel
+from reference.problems.polar.problem import PolarBrachistochrone
 from reference.problems.tunnel.equations import UNIFORM_BALL
+from reference.problems.tunnel.problem import Tunnel
 from reference.routes.agreement import agreement
 
 ARGUMENTS = {

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 from compare.sources.errata.evidence import GRAVITY, REPORT, Erratum, along, exactly, near, precisely, proven
 from compare.sources.errata.spelled import spelled
 from reference.arithmetic.precision import mp
-from reference.problems.pendulum import Pendulum
+from reference.problems.pendulum.problem import Pendulum
 
 if TYPE_CHECKING:
     from collections.abc import Callable

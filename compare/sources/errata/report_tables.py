@@ -7,7 +7,7 @@ from compare.sources.errata.report_series import TO_THE_FOURTH
 from compare.sources.errata.spelled import spelled
 from compare.sources.published.source import tables
 from reference.arithmetic.precision import mp
-from reference.problems.pendulum import Pendulum
+from reference.problems.pendulum.problem import Pendulum
 
 __all__ = ["TABLES"]
 

@@ -1,14 +1,11 @@
-"""The errata as text, Markdown, CSV, LaTeX or JSON; the page docs/errata.md is the Markdown form."""
+"""The errata as a page; docs/errata.md is its Markdown form."""
 
 from __future__ import annotations
 
-import csv
-import io
-import json
 from typing import TYPE_CHECKING, Any
 
-from compare.show import text_table
-from compare.show.text_table import Column, Section, folded
+from compare.show.page import Head, Lines, Page, word
+from compare.show.text_table import Column, Table, folded, markdown_text
 from compare.sources.errata.entries import NOTICED
 from compare.sources.errata.evidence import Erratum
 from compare.sources.published.source import sources
@@ -16,9 +13,10 @@ from compare.sources.published.source import sources
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
 
+    from compare.show.page import Block
     from compare.sources.errata.sound import Sound
 
-__all__ = ["FIELDS", "records", "render"]
+__all__ = ["FIELDS", "page", "records"]
 
 FIELDS = ("kind", "source", "place", "printed", "right", "check", "touches", "confirmed")
 _KINDS = {
@@ -28,8 +26,8 @@ _KINDS = {
 }
 _COLUMNS = (Column("", left=True), Column("entry", left=True))
 _SHOWN = ("printed", "right", "check", "touches")
-_LATEX_WIDTH, _LATEX_ENTRIES = 72, 6
-"""Characters a line, and entries a table: a page takes no more."""
+_LATEX_ENTRIES = 6
+"""In one table: a page takes no more."""
 _LATEX_NEEDS = r"""% needs \usepackage{booktabs}, and \usepackage{fontspec} with \setmainfont{DejaVu Serif}
 % compile it with XeLaTeX or LuaLaTeX: φ, √, ∂, ∫ and raised digits stand as they are, and that font has all of them
 """
@@ -72,22 +70,27 @@ def records(entries: Iterable[Erratum | Sound]) -> list[dict[str, Any]]:
     ]
 
 
-def render(found: list[dict[str, Any]], form: str = "text", width: int = 100) -> str:
-    """The records in one of the table formats, then what was noticed; the ``entries`` of the JSON have FIELDS."""
-    everything = [*found, *_noticed()]
-    if form == "json":
-        return f'{{"entries": {_json(found)}, "noticed": {_json(_noticed())}}}\n'
-    if form == "csv":
-        buffer = io.StringIO()
-        writer = csv.DictWriter(buffer, FIELDS, lineterminator="\n", restval="")
-        writer.writeheader()
-        writer.writerows({**record, **_answer(record)} for record in everything)
-        return buffer.getvalue()
-    if form == "markdown":
-        return "\n".join([_HEADER, *_markdown(everything)])
-    if form == "latex":
-        return "\n".join([_LATEX_NEEDS, *map(text_table.latex, _sections(everything, _LATEX_WIDTH, _LATEX_ENTRIES))])
-    return "\n".join(map(text_table.text, _sections(everything, width, len(everything))))
+def page(found: list[dict[str, Any]]) -> Page:
+    """The records, then what was noticed; the ``entries`` of the JSON have FIELDS."""
+    noticed = _noticed()
+    everything = [*found, *noticed]
+
+    def blocks(form: str, width: int) -> Iterator[Block]:
+        if form == "markdown":
+            yield _HEADER
+            yield from _markdown(everything)
+        elif form == "latex":
+            yield _LATEX_NEEDS
+            yield from _tables(everything, width, _LATEX_ENTRIES)
+        else:
+            yield from _tables(everything, width, len(everything))
+
+    return Page(
+        name="errata",
+        blocks=blocks,
+        data=lambda: {"entries": Lines(found), "noticed": Lines(noticed)},
+        sheets=lambda: {"errata": [FIELDS, *([word(one.get(name, "")) for name in FIELDS] for one in everything)]},
+    )
 
 
 def _noticed() -> list[dict[str, Any]]:
@@ -96,15 +99,6 @@ def _noticed() -> list[dict[str, Any]]:
         {"kind": "noticed", "source": one.source, "place": one.place, "printed": one.printed, "right": one.right}
         for one in NOTICED
     ]
-
-
-def _json(found: list[dict[str, Any]]) -> str:
-    return "[\n  " + ",\n  ".join(json.dumps(record, ensure_ascii=False) for record in found) + "\n]"
-
-
-def _answer(record: dict[str, Any]) -> dict[str, str]:
-    """Whether it is confirmed, in a word, where it has a check."""
-    return {"confirmed": "yes" if record["confirmed"] else "no"} if "confirmed" in record else {}
 
 
 def _of(found: list[dict[str, Any]]) -> Iterator[tuple[str, str, str, list[dict[str, Any]]]]:
@@ -120,18 +114,17 @@ def _count(own: list[dict[str, Any]]) -> str:
     return f"{sum(checked)} of {len(checked)} entries are confirmed" if checked else f"{len(own)} remarks"
 
 
-def _markdown(found: list[dict[str, Any]]) -> Iterator[str]:
+def _markdown(found: list[dict[str, Any]]) -> Iterator[Block]:
     for name, citation, kind, own in _of(found):
         if kind == "erratum":
-            yield f"## The {name}\n\n{text_table.markdown_text(citation)}: {_count(own)}.\n"
+            yield f"## The {name}\n\n{markdown_text(citation)}: {_count(own)}.\n"
         else:
             yield f"## The {name}: {_KINDS[kind].lower()}\n\n{_count(own)}.\n"
         for record in own:
-            lines = "\n".join(f"- {field}: {text_table.markdown_text(words)}" for field, words in _rows(record))
-            yield f"### {record['place']}\n\n{lines}\n"
+            yield Head(tuple(f"{field}: {words}" for field, words in _rows(record)), record["place"], level=3)
 
 
-def _sections(found: list[dict[str, Any]], width: int, size: int) -> Iterator[Section]:
+def _tables(found: list[dict[str, Any]], width: int, size: int) -> Iterator[Table]:
     """A table for each source and kind, or where it has more entries than the size, several."""
     for name, citation, kind, own in _of(found):
         parts = [own[i : i + size] for i in range(0, len(own), size)]
@@ -139,7 +132,7 @@ def _sections(found: list[dict[str, Any]], width: int, size: int) -> Iterator[Se
             rows = [row for record in part for row in (("where", record["place"]), *_rows(record), ("", ""))][:-1]
             which, suffix = (f" ({number} of {len(parts)})", f"-{number}") if len(parts) > 1 else ("", "")
             title = f"{_KINDS[kind]}{which}: {citation}"
-            yield Section(f"{kind}-{name}{suffix}", title, (folded(_COLUMNS, rows, width),), _count(own) + ".")
+            yield Table(f"{kind}-{name}{suffix}", title, (folded(_COLUMNS, rows, width),), _count(own) + ".")
 
 
 def _rows(record: dict[str, Any]) -> Iterator[tuple[str, str]]:

@@ -13,10 +13,10 @@ from compare.sources.errata.report_motion import SUBSTITUTED, is_velocity
 from compare.sources.errata.spelled import spelled
 from compare.sources.errata.thesis_curves import NUMERATOR, are_rates
 from reference.arithmetic.precision import mp
-from reference.problems.cycloid import Tautochrone
-from reference.problems.descent import Descent
-from reference.problems.pendulum import Pendulum
-from reference.problems.polar import PolarBrachistochrone
+from reference.problems.cycloid.tautochrone import Tautochrone
+from reference.problems.descent.problem import Descent
+from reference.problems.pendulum.problem import Pendulum
+from reference.problems.polar.problem import PolarBrachistochrone
 
 if TYPE_CHECKING:
     from collections.abc import Callable

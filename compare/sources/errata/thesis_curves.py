@@ -27,7 +27,7 @@ from compare.sources.errata.spelled import spelled
 from compare.sources.published.curve import listed_error
 from compare.sources.published.source import tables
 from reference.arithmetic.precision import mp
-from reference.problems.cycloid import Tautochrone
+from reference.problems.cycloid.tautochrone import Tautochrone
 
 if TYPE_CHECKING:
     from collections.abc import Callable

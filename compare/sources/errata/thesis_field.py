@@ -8,7 +8,7 @@ from typing import Any
 from compare.sources.errata.evidence import THESIS, Erratum, along, near, precisely, proven, rounds_to
 from compare.sources.errata.spelled import spelled
 from reference.arithmetic.precision import mp
-from reference.problems.polar import PolarBrachistochrone
+from reference.problems.polar.problem import PolarBrachistochrone
 
 __all__ = ["FIELD"]
 

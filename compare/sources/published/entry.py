@@ -32,10 +32,10 @@ class Entry:
         column: the column's name.
         published: the number as printed, None where it is not.
         reproduced: what the method or formula gives, to as many places.
+        shown: the same for readers, without digits that rounding may have made.
         exact: what is true, to as many places.
         off_by: reproduced less published, in units of the last printed digit; None where nothing is printed.
         wrong: whether it claims to be exact and is not, to the last digit.
-        shown: reproduced for readers, without digits that rounding may have made.
         note: what is to be said of it, or "".
     """
 
@@ -44,11 +44,11 @@ class Entry:
     column: str
     published: str | None
     reproduced: str
+    shown: str
     exact: str
     off_by: int | None
     wrong: bool
     note: str
-    shown: str
 
 
 @dataclass(frozen=True)

@@ -1,28 +1,25 @@
-"""The reproduced tables as text, Markdown, CSV, LaTeX or JSON."""
+"""The reproduced tables as a page."""
 
 from __future__ import annotations
 
-import csv
-import io
 import itertools
-import json
 import textwrap
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
-from compare.show import text_table
 from compare.show.digits import NOTES, ROUNDING
-from compare.show.render import FORMATS
-from compare.show.text_table import Column, Grid, Section
+from compare.show.page import Head, Lines, Page, field_names, fields_of
+from compare.show.text_table import Column, Grid, Table, text_width
+from compare.sources.published.entry import Entry
 from compare.sources.published.source import sources
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Iterator, Sequence
 
-    from compare.sources.published.entry import Entry, Reproduction
+    from compare.show.page import Block
+    from compare.sources.published.entry import Reproduction
 
-__all__ = ["FIELDS", "render"]
+__all__ = ["page"]
 
-FIELDS = ("item", "row", "column", "published", "reproduced", "shown", "exact", "off_by", "note")
 LABELS = ("published", "reproduced", "exact", "off by")
 NOT_PRINTED = ("reproduced", "exact")
 """What is shown of a column that the source does not print."""
@@ -32,49 +29,30 @@ LEGEND = (
 )
 
 
-def render(found: Sequence[Reproduction], form: str = "text", width: int = 100) -> str:
-    """The tables in one of FORMATS; JSON is a list of objects with FIELDS; ``width`` is the longest line of the text.
+def page(found: Sequence[Reproduction]) -> Page:
+    """The tables; JSON is a list of their entries."""
+    entries = [fields_of(entry, "wrong") for one in found for entry in one.entries]
 
-    Raises:
-        ValueError: the format is not one of FORMATS.
-    """
-    if form not in FORMATS:
-        raise ValueError(f"the format {form!r} is not one of {', '.join(FORMATS)}")
-    rows = [{name: getattr(entry, name) for name in FIELDS} for one in found for entry in one.entries]
-    if form == "json":
-        return "[\n" + ",\n".join(f"  {json.dumps(row, ensure_ascii=False)}" for row in rows) + "\n]\n"
-    if form == "csv":
-        return _csv(rows)
-    write = {"text": text_table.text, "markdown": text_table.markdown, "latex": text_table.latex}[form]
-    parts = [write(_section(one, form, width)) for one in found]
-    return "\n".join([_heading(found, form, width), *parts])
+    def blocks(form: str, width: int) -> Iterator[Block]:
+        cited = {one.table.source: sources()[one.table.source] for one in found}
+        yield Head((*(f"{name}: {text}" for name, text in cited.items()), LEGEND), "Published")
+        yield from (_table(one, form, width) for one in found)
 
-
-def _csv(rows: Sequence[dict[str, Any]]) -> str:
-    buffer = io.StringIO()
-    writer = csv.DictWriter(buffer, FIELDS, lineterminator="\n")
-    writer.writeheader()
-    writer.writerows(rows)
-    return buffer.getvalue()
+    return Page(
+        name="published",
+        blocks=blocks,
+        data=lambda: Lines(entries),
+        sheets=lambda: {"published": [field_names(Entry, "wrong"), *(entry.values() for entry in entries)]},
+        widths={},
+    )
 
 
-def _heading(found: Sequence[Reproduction], form: str, width: int) -> str:
-    """The documents, and what the marks mean."""
-    cited = {one.table.source: sources()[one.table.source] for one in found}
-    facts = [f"{name}: {text}" for name, text in cited.items()] + [LEGEND]
-    if form == "markdown":
-        return "## Published\n\n" + "\n".join(f"- {text_table.markdown_text(fact)}" for fact in facts) + "\n"
-    if form == "latex":
-        return "\n".join(f"% {fact}" for fact in (r"needs \usepackage{booktabs}", *facts)) + "\n"
-    return "\n".join(textwrap.fill(fact, width, subsequent_indent="  ") for fact in facts) + "\n"
-
-
-def _section(one: Reproduction, form: str, width: int) -> Section:
+def _table(one: Reproduction, form: str, width: int) -> Table:
     table = one.table
     page = [f"The page is inferred: {table.inferred}."] if table.inferred else []
     rounding = [f"{NOTES[ROUNDING]}."] if any(entry.shown != entry.reproduced for entry in one.entries) else []
     notes = [f"{one.summary}.", *([f"{table.note}."] if table.note else []), *_notes(one), *rounding, *page]
-    return Section(
+    return Table(
         name=f"published-{table.name}",
         title=f"{table.cited}: {table.title}",
         grids=tuple(_grids(one, width)),
@@ -104,7 +82,7 @@ def _grids(one: Reproduction, width: int) -> list[Grid]:
     grids: list[Grid] = []
     chosen: list[str] = []
     for name in names:
-        if chosen and text_table.text_width(_grid(one, [*chosen, name])) > width:
+        if chosen and text_width(_grid(one, [*chosen, name])) > width:
             grids.append(_grid(one, chosen))
             chosen = []
         chosen.append(name)

@@ -14,13 +14,14 @@ from reference.declaration import ClosedForm, Form, Row, StateSpace, Trial
 from reference.problem import APART, Problem
 from reference.problems.cycloid.equations import point_below_cusp, run
 from reference.problems.cycloid.quantities import CURVE_ROWS, HEIGHT, exponent, positive_number
-from reference.problems.cycloid.taylor import TaylorArc
+from reference.problems.cycloid.taylor import CURVE_BY_FLOW
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
+    from collections.abc import Callable, Mapping, Sequence
 
     from reference.arithmetic.protocols import Arithmetic, EllipticArithmetic
     from reference.declaration import Invariant
+    from reference.routes.taylor import Reading
     from reference.row_domains import Domain
 
 __all__ = ["CycloidArc", "CycloidCurve"]
@@ -89,6 +90,7 @@ class CycloidArc(Problem):
     trial: ClassVar[Trial] = Trial(
         states=((-3.0, 3.0), (0.1, 0.6)), parameters={"radius": (0.5, 2.0)}, step=(0.001, 0.005)
     )
+    by_flow: ClassVar[Mapping[str, Reading]] = CURVE_BY_FLOW
     form: ClassVar[Form] = Form(
         "curve", "curve dx/dy", "dx/dy = sqrt(y/(2 R - y)), x(0) = 0, y the depth below the cusp"
     )
@@ -128,10 +130,6 @@ class CycloidArc(Problem):
     def quadrature_form(self) -> Curve:
         """The integral of dx/dy, by mpmath."""
         return QuadratureCurve(MPMATH, self.radius)
-
-    def taylor_form(self, bits: int) -> TaylorArc:
-        """The flow of a bead in units of the radius."""
-        return TaylorArc(self, bits)
 
     def within_taylor(self, row: str, arguments: Sequence[Any]) -> bool:
         """Whether every angle lies in 0 <= theta <= TAYLOR_RADIANS; every height does."""

@@ -11,9 +11,8 @@ descent from the cusp has the speed sqrt(2 g y) = 2 sqrt(g R) sin(theta/2), henc
 The pendulum of Huygens measures angle and arc from the bottom instead: x = R (theta + sin theta), height
 R (1 - cos theta), arc 4 R sin(theta/2).
 
-Curves beside the brachistochrone, through the same end points: how much longer the descent takes on them.
-
-The neighbour epsilon of the cycloid has the same x and all depths changed by the factor B = 1 + epsilon w,
+On a curve beside the brachistochrone through the same end points the descent takes longer.  The neighbour epsilon of
+the cycloid has the same x and all depths changed by the factor B = 1 + epsilon w,
 
     x = R (theta - sin theta),   y = R (1 - cos theta) B,   w = sin(pi theta/theta_B),   0 <= theta <= theta_B.
 

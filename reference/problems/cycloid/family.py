@@ -6,11 +6,9 @@ import math
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
 from reference.arithmetic.exact import as_number, exact
 from reference.family import Comparison, End, Family, Input, Marched, Reported
-from reference.layout import Coordinate, Group, Layout
+from reference.layout import Coordinate, Group, Layout, parts
 from reference.problems.cycloid.arc import CycloidCurve
 from reference.problems.cycloid.problem import Cycloid
 from reference.problems.cycloid.tautochrone import CycloidalPendulum, Tautochrone
@@ -95,29 +93,29 @@ ANGLES = (0.001, 0.1, 0.5, 1.0, 1.5, 2.0, 2.5, 3.0, 3.13, math.pi - 1e-6)
 
 def core() -> tuple[Group, ...]:
     """The grids of the dataset that ships with the package."""
-    epsilon = np.array([-4, 1, 4]) / 8
+    epsilon = parts([-4, 1, 4], 8)
     return (
         Group(
             BRACHISTOCHRONE,
             EARTH,
-            {"end_x": RATIOS, "end_y": np.ones(len(RATIOS)), "fraction": np.arange(65) / 64, "epsilon": epsilon},
+            {"end_x": RATIOS, "end_y": [1.0] * len(RATIOS), "fraction": parts(range(65), 64), "epsilon": epsilon},
         ),
-        Group(TAUTOCHRONE, {"radius": 1.0, **EARTH}, {"start_angle": ANGLES, "time": np.arange(401) / 100}),
+        Group(TAUTOCHRONE, {"radius": 1.0, **EARTH}, {"start_angle": ANGLES, "time": parts(range(401), 100)}),
     )
 
 
 def full() -> tuple[Group, ...]:
     """The same groups with finer and larger grids, as far as they are proven within hours on two cores."""
-    ratios = np.unique(np.concatenate([RATIOS, np.arange(1, 129) / 16]))
-    angles = np.unique(np.concatenate([ANGLES, np.arange(1, 101) / 32]))
-    epsilon = np.delete(np.arange(-8, 9) / 16, 8)
+    ratios = sorted({*RATIOS, *parts(range(1, 129), 16)})
+    angles = sorted({*ANGLES, *parts(range(1, 101), 32)})
+    epsilon = [k / 16 for k in range(-8, 9) if k]
     return (
         Group(
             BRACHISTOCHRONE,
             EARTH,
-            {"end_x": ratios, "end_y": np.ones(ratios.size), "fraction": np.arange(1025) / 1024, "epsilon": epsilon},
+            {"end_x": ratios, "end_y": [1.0] * len(ratios), "fraction": parts(range(1025), 1024), "epsilon": epsilon},
         ),
-        Group(TAUTOCHRONE, {"radius": 1.0, **EARTH}, {"start_angle": angles, "time": np.arange(4001) / 1000}),
+        Group(TAUTOCHRONE, {"radius": 1.0, **EARTH}, {"start_angle": angles, "time": parts(range(4001), 1000)}),
     )
 
 

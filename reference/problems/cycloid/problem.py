@@ -13,15 +13,15 @@ from reference.arithmetic.precision import mp
 from reference.arithmetic.quadrature import to_fraction
 from reference.declaration import ENERGY_ABOVE_REST, Form
 from reference.once import cached_property
-from reference.orbits import Harmonic
+from reference.orbits import HarmonicOrbits
 from reference.problem import APART, SeparableProblem
 from reference.problems.cycloid.brachistochrone import Brachistochrone, QuadratureBrachistochrone
 from reference.problems.cycloid.equations import ARC_SPACE, ARC_TRIAL, arc_acceleration, arc_energy
 from reference.problems.cycloid.quantities import DESCENT_ROWS, exponent, positive_number
-from reference.problems.cycloid.taylor import TaylorBrachistochrone
+from reference.problems.cycloid.taylor import BRACHISTOCHRONE_BY_FLOW
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
+    from collections.abc import Callable, Mapping, Sequence
 
     import numpy as np
     from flint import arb
@@ -30,6 +30,7 @@ if TYPE_CHECKING:
     from reference.certified import Certified
     from reference.declaration import Invariant, Row, StateSpace, Trial
     from reference.orbits import Orbits
+    from reference.routes.taylor import Reading
 
 __all__ = ["Cycloid"]
 
@@ -72,6 +73,7 @@ class Cycloid(SeparableProblem):
     space: ClassVar[StateSpace] = ARC_SPACE
     invariants: ClassVar[tuple[Invariant, ...]] = (ENERGY_ABOVE_REST,)
     trial: ClassVar[Trial] = ARC_TRIAL
+    by_flow: ClassVar[Mapping[str, Reading]] = BRACHISTOCHRONE_BY_FLOW
     form: ClassVar[Form] = Form(
         "motion", "motion", "s'' = g (1 - s/(4 R)), s the arc length from the cusp, at rest at s = 0"
     )
@@ -106,7 +108,7 @@ class Cycloid(SeparableProblem):
 
     def orbits(self) -> Orbits:
         radius: arb = self.closed_form(BALL).radius
-        return Harmonic(self.start, (BALL.number(self.g) / radius).sqrt() / 2, 4 * radius)
+        return HarmonicOrbits(self.start, (BALL.number(self.g) / radius).sqrt() / 2, 4 * radius)
 
     @property
     def lacks_of_orbits(self) -> str:
@@ -145,10 +147,6 @@ class Cycloid(SeparableProblem):
     def quadrature_form(self) -> QuadratureBrachistochrone:
         """The same by other formulas in mpmath, with integrals for lengths and times."""
         return QuadratureBrachistochrone(MPMATH, *(MPMATH.number(v) for v in (self.end_x, self.end_y, self.g)))
-
-    def taylor_form(self, bits: int) -> TaylorBrachistochrone:
-        """The flow of the bead's equation, and of the neighbours' times."""
-        return TaylorBrachistochrone(self, bits)
 
     def within_taylor(self, row: str, arguments: Sequence[Any]) -> bool:
         """Whether every time lies in 0 <= sqrt(g/R) t <= TAYLOR_RADIANS; the rest is always in reach."""

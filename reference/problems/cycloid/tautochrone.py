@@ -12,7 +12,7 @@ from reference.arithmetic.namespaces import BALL, MPMATH
 from reference.arithmetic.precision import mp
 from reference.declaration import ENERGY_ABOVE_REST, Form, StateSpace, Trial
 from reference.once import cached_property
-from reference.orbits import Harmonic
+from reference.orbits import HarmonicOrbits
 from reference.problem import APART, Problem, SeparableProblem
 from reference.problems.cycloid.equations import (
     ARC_SPACE,
@@ -23,13 +23,13 @@ from reference.problems.cycloid.equations import (
     arc_frequency,
     swing_energy,
 )
-from reference.problems.cycloid.orbits import CycloidAngles
+from reference.problems.cycloid.orbits import CycloidOrbits
 from reference.problems.cycloid.quantities import PENDULUM_ROWS, SWING_ROWS, exponent, positive_number
 from reference.problems.cycloid.swing import ArcSwing, QuadratureArcSwing, QuadratureSwing, Swing
-from reference.problems.cycloid.taylor import TaylorSwing
+from reference.problems.cycloid.taylor import PENDULUM_BY_FLOW, SWING_BY_FLOW
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
+    from collections.abc import Callable, Mapping, Sequence
 
     from flint import arb
 
@@ -37,6 +37,7 @@ if TYPE_CHECKING:
     from reference.certified import Certified
     from reference.declaration import Invariant, Row
     from reference.orbits import Orbits
+    from reference.routes.taylor import Reading
 
 __all__ = ["CycloidalPendulum", "Swinging", "Tautochrone"]
 
@@ -82,10 +83,6 @@ class Swinging(Problem):
     def frequency(self) -> float:
         """w = sqrt(g/(4 R)) in rad/s."""
         return float(arc_frequency(MPMATH, MPMATH.number(self.radius), MPMATH.number(self.g)))
-
-    def taylor_form(self, bits: int) -> TaylorSwing:
-        """The flow of the equation of motion."""
-        return TaylorSwing(self, bits)
 
     def within_taylor(self, row: str, arguments: Sequence[Any]) -> bool:
         """Whether no time is negative and the latest is within TAYLOR_WORK; a period takes three quarters of itself."""
@@ -156,6 +153,7 @@ class Tautochrone(Swinging):
     trial: ClassVar[Trial] = Trial(
         states=((-2.0, 2.0), (-1.0, 1.0)), parameters={"radius": (0.5, 2.0), "g": (0.5, 2.0)}, step=(0.001, 0.01)
     )
+    by_flow: ClassVar[Mapping[str, Reading]] = SWING_BY_FLOW
     form: ClassVar[Form] = Form(
         "angle", "by the angle", "theta'' = tan(theta/2) (theta'^2/2 - g/(2 R)), theta(0) = angle, theta'(0) = 0"
     )
@@ -195,7 +193,7 @@ class Tautochrone(Swinging):
         return {"angle": (float(self.angle), "rad")}
 
     def orbits(self) -> Orbits:
-        return CycloidAngles(self.start, self._w())
+        return CycloidOrbits(self.start, self._w())
 
     @classmethod
     def derivative(cls, m: Arithmetic, t: Any, y: Sequence[Any], p: dict[str, Any]) -> tuple[Any, ...]:
@@ -256,6 +254,7 @@ class CycloidalPendulum(SeparableProblem, Swinging):
     space: ClassVar[StateSpace] = ARC_SPACE
     invariants: ClassVar[tuple[Invariant, ...]] = (ENERGY_ABOVE_REST,)
     trial: ClassVar[Trial] = ARC_TRIAL
+    by_flow: ClassVar[Mapping[str, Reading]] = PENDULUM_BY_FLOW
     form: ClassVar[Form] = Form("arc", "by the arc", "s'' = -(g/(4 R)) s, s(0) = arc, s'(0) = 0")
 
     def __init__(self, arc: Any, radius: Any = 1.0, g: Any = 9.81) -> None:
@@ -279,7 +278,7 @@ class CycloidalPendulum(SeparableProblem, Swinging):
         return {"arc": (float(self.arc), "m")}
 
     def orbits(self) -> Orbits:
-        return Harmonic(self.start, self._w())
+        return HarmonicOrbits(self.start, self._w())
 
     @staticmethod
     def velocity(m: Arithmetic, momenta: Sequence[Any], p: dict[str, Any]) -> tuple[Any, ...]:

@@ -5,12 +5,10 @@ from __future__ import annotations
 from fractions import Fraction
 from typing import Any
 
-import numpy as np
-
 from reference.family import Comparison, End, Family, Input, Marched, Reported, positive_end
-from reference.layout import Coordinate, Group, Layout
-from reference.problems.descent import RACE as CURVES
-from reference.problems.descent import Descent
+from reference.layout import Coordinate, Group, Layout, parts
+from reference.problems.descent.curves import RACE as CURVES
+from reference.problems.descent.problem import Descent
 
 __all__ = ["FAMILY", "LAYOUTS", "RACE", "core", "full", "last_tick"]
 
@@ -44,17 +42,17 @@ RACE = Layout(
 LAYOUTS = (RACE,)
 
 EARTH = {"g": 9.81}
-ALL = np.arange(len(CURVE.meanings))
+ALL = range(len(CURVE.meanings))
 
 
 def core() -> tuple[Group, ...]:
     """The grids of the dataset that ships with the package."""
-    return (Group(RACE, EARTH, {"curve": ALL, "time": np.arange(101) / 100, "fraction": np.arange(65) / 64}),)
+    return (Group(RACE, EARTH, {"curve": ALL, "time": parts(range(101), 100), "fraction": parts(range(65), 64)}),)
 
 
 def full() -> tuple[Group, ...]:
     """The same group with finer grids, as far as they are proven within hours on two cores."""
-    return (Group(RACE, EARTH, {"curve": ALL, "time": np.arange(4001) / 4000, "fraction": np.arange(4097) / 4096}),)
+    return (Group(RACE, EARTH, {"curve": ALL, "time": parts(range(4001), 4000), "fraction": parts(range(4097), 4096)}),)
 
 
 TICK = Fraction(1, 1024)

@@ -1,7 +1,4 @@
-"""Descent on a curve as a problem: exact inputs, proven answers.
-
-What can be asked of a descent: names, units and definitions.
-"""
+"""Descent on a curve as a problem: what can be asked of it, exact inputs, proven answers."""
 
 from __future__ import annotations
 
@@ -24,17 +21,18 @@ from reference.problems.descent.curves import Curve, CycloidByArc, lagrange, spe
 from reference.problems.descent.equations import energy
 from reference.problems.descent.forms import BallDescent, CycloidDescent, QuadratureDescent
 from reference.problems.descent.rational import Rational
-from reference.problems.descent.taylor import TaylorDescent
+from reference.problems.descent.taylor import BY_FLOW
 from reference.row_domains import FRACTION, ONCE, Domain, Reals
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
+    from collections.abc import Callable, Mapping, Sequence
 
     from flint import arb
 
     from reference.certified import Certified
     from reference.declaration import ClosedForm, Invariant
     from reference.problems.descent.slide import Slide
+    from reference.routes.taylor import Reading
 
 __all__ = ["ROWS", "Descent"]
 
@@ -133,6 +131,7 @@ class Descent(Problem):
     )
     invariants: ClassVar[tuple[Invariant, ...]] = (ENERGY_ABOVE_REST,)
     trial: ClassVar[Trial] = Trial(states=((0.2, 0.5), (0.0, 0.5)), parameters={"g": (0.5, 2.0)}, step=(0.001, 0.005))
+    by_flow: ClassVar[Mapping[str, Reading]] = BY_FLOW
     max_bits: ClassVar[int] = 2048
 
     def __init__(
@@ -216,7 +215,7 @@ class Descent(Problem):
 
     def rate(self) -> float:
         """The largest |d(w'')/d(w')| + sqrt|d(w'')/dw| at places along the motion."""
-        duals: Any = DualArithmetic(NUMPY, 2)  # type: ignore[arg-type] # formulas ask for no elliptic functions
+        duals: Any = DualArithmetic(NUMPY, 2)
         until = Fraction(float(self.descent_time())) * (1 - Fraction(1, 16))
         found = [0.0]
         for w, by_time in self.state([until * Fraction(k, 16) for k in range(self.slide.order - 1, 17)]):
@@ -240,10 +239,6 @@ class Descent(Problem):
     def quadrature_form(self) -> ClosedForm:
         """The motion by Chebyshev series in mpmath."""
         return QuadratureDescent(self.slide, self.g)
-
-    def taylor_form(self, bits: int) -> TaylorDescent:
-        """The flow of the equation of motion."""
-        return TaylorDescent(self, bits)
 
     def within_taylor(self, row: str, arguments: Sequence[Any]) -> bool:
         """Not from a cusp, where the equation of motion has no start."""

@@ -4,9 +4,8 @@ q is rational, d a squarefree whole number, x an unknown, such as the parameter 
 products x^i T^k pi^j sqrt(d) are linearly independent over the rationals (pi and the functions x and T are
 transcendental), so that equality is decided exactly.
 
-Formulas read in exact numbers: where the value is one of surds.py, and no claim where it is not.
-
-A function of a constant has the values that are known, such as cos(pi/5); a sine or a cosine of the unknown x is a
+A formula read in these numbers has a value where that is one of them, and nothing is claimed where it is not.  A
+function of a constant has the values that are known, such as cos(pi/5); a sine or a cosine of the unknown x is a
 quotient of powers of T = tan(x/4).
 """
 

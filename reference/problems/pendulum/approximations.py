@@ -1,7 +1,4 @@
-"""What a pendulum says of its expansions in the amplitude: exact coefficients, proven values and proven errors.
-
-The pendulum's expansions in its amplitude as problems: their values, and their errors against the truth.
-"""
+"""A released pendulum's expansions in powers of its amplitude: exact coefficients, proven values and proven errors."""
 
 from __future__ import annotations
 
@@ -9,22 +6,22 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any, ClassVar
 
-from reference.arithmetic import quadrature
 from reference.arithmetic.exact import as_number, exact
 from reference.arithmetic.namespaces import MPMATH
 from reference.declaration import ClosedForm, Row
 from reference.once import cached_property
 from reference.problem import Problem
 from reference.problems.pendulum import contour, series
-from reference.problems.pendulum.problem import Pendulum
 from reference.problems.pendulum.quantities import LINDSTEDT_ROWS, SERIES_ROWS
+from reference.problems.pendulum.simple import SimplePendulum
+from reference.routes.taylor import taylor_route
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Mapping, Sequence
 
     from reference.arithmetic.protocols import EllipticArithmetic
     from reference.certified import Certified
-    from reference.declaration import Solution
+    from reference.routes.taylor import Reading, TaylorRoute
 
 __all__ = ["LindstedtMotion", "LindstedtSolution", "PendulumSeries", "PeriodSeries", "lindstedt", "period_series"]
 
@@ -43,9 +40,9 @@ class Expansion(Problem):
         _ = self.pendulum
 
     @cached_property
-    def pendulum(self) -> Pendulum:
+    def pendulum(self) -> SimplePendulum:
         """The pendulum itself."""
-        return Pendulum(self.theta0, self.g, self.length)
+        return SimplePendulum(self.theta0, self.g, self.length)
 
     def _spelled(self) -> str:
         return ", ".join(f"{name}={as_number(getattr(self, name))!r}" for name in ("theta0", "g", "length"))
@@ -61,9 +58,10 @@ class Expansion(Problem):
         """Coefficients from Cauchy's integrals against mpmath's elliptic functions and integrals."""
         return self.expanded(MPMATH, self.pendulum.quadrature_form(), contour)
 
-    def taylor_form(self, bits: int) -> Solution:
-        """The exact coefficients against the flow of the equation of motion."""
-        return ByTaylor(self, bits)
+    def within_taylor(self, row: str, arguments: Sequence[Any]) -> bool:
+        """Whether the pendulum's own state is within."""
+        del row
+        return self.pendulum.within_taylor("state", arguments)
 
     def expanded(self, m: Any, motion: Any, source: Any) -> Expanded:
         """The rows in an arithmetic: of which motion, and where the coefficients come from."""
@@ -118,38 +116,31 @@ class Expanded(ClosedForm):
 
 
 class Integrated:
-    """The period by the flow of the equation of motion, in mpmath's numbers."""
+    """The motion by the flow of the pendulum's equation: its period, and its state at the times that are asked for."""
 
-    def __init__(self, pendulum: Pendulum, bits: int) -> None:
-        self._flow = pendulum.taylor_form(bits)
-        self.theta0, self.g, self.length = (
-            MPMATH.number(value) for value in (pendulum.theta0, pendulum.g, pendulum.length)
-        )
-        self.w = MPMATH.sqrt(self.g / self.length)
+    def __init__(self, route: TaylorRoute, times: Sequence[Fraction] = ()) -> None:
+        pendulum, m = route.problem.pendulum, route.m
+        self._route = taylor_route(pendulum, route.bits)
+        self.theta0, self.g, self.length = (m.number(value) for value in (pendulum.theta0, pendulum.g, pendulum.length))
+        self.w = m.sqrt(self.g / self.length)
+        self._states = {m.number(t): state for t, state in zip(times, self._route.rows("state", times), strict=True)}
 
     @cached_property
     def period(self) -> Any:
-        ((period,),) = self._flow.rows("period", [None])
-        return MPMATH.number(period)
+        return self._route.value("period")
 
-    def angles(self, times: Sequence[Fraction]) -> list[Any]:
-        return [MPMATH.number(theta) for theta, _ in self._flow.rows("state", times)]
+    def state(self, t: Any) -> list[Any]:
+        return [self._route.m.number(value) for value in self._states[t]]
 
 
-class ByTaylor:
-    """The errors of the exact coefficients' sums against the flow."""
+def by_period(route: TaylorRoute, row: str, orders: Sequence[int]) -> list[tuple[Any, ...]]:
+    """The exact coefficients against the flow's period."""
+    return route.problem.expanded(route.m, Integrated(route), series).rows(row, orders)  # type: ignore[no-any-return]
 
-    def __init__(self, problem: Expansion, bits: int) -> None:
-        self._motion = Integrated(problem.pendulum, bits)
-        self._form = problem.expanded(MPMATH, self._motion, series)
 
-    def rows(self, row: str, arguments: Sequence[Any]) -> list[tuple[Fraction, ...]]:
-        if row == "lindstedt_angle_error":
-            found = self._form.rows("lindstedt_angle", arguments)
-            errors = [angle - truth for (angle,), truth in zip(found, self._motion.angles(arguments), strict=True)]
-        else:
-            errors = [error for (error,) in self._form.rows(row, arguments)]
-        return [(quadrature.to_fraction(error),) for error in errors]
+def by_state(route: TaylorRoute, row: str, times: Sequence[Fraction]) -> list[tuple[Any, ...]]:
+    """The same against the flow's states."""
+    return route.problem.expanded(route.m, Integrated(route, times), series).rows(row, times)  # type: ignore[no-any-return]
 
 
 class PendulumSeries(Expansion):
@@ -167,6 +158,9 @@ class PendulumSeries(Expansion):
 
     name: ClassVar[str] = "pendulum series"
     rows: ClassVar[tuple[Row, ...]] = SERIES_ROWS
+    by_flow: ClassVar[Mapping[str, Reading]] = dict.fromkeys(
+        ("period_series_error", "lindstedt_error", "lindstedt_crossing_error"), by_period
+    )
 
     def expanded(self, m: Any, motion: Any, source: Any) -> Expanded:
         return Expanded(m, motion, source, self.theta0)
@@ -197,6 +191,7 @@ class LindstedtMotion(Expansion):
 
     name: ClassVar[str] = "Lindstedt-Poincare solution"
     rows: ClassVar[tuple[Row, ...]] = LINDSTEDT_ROWS
+    by_flow: ClassVar[Mapping[str, Reading]] = {"lindstedt_angle_error": by_state}
 
     def __init__(self, theta0: Any, g: Any = 9.81, length: Any = 1.0, order: int = 1) -> None:
         super().__init__(theta0, g, length)
@@ -208,11 +203,6 @@ class LindstedtMotion(Expansion):
     def expanded(self, m: Any, motion: Any, source: Any) -> Expanded:
         return Expanded(m, motion, source, self.theta0, self.order)
 
-    def within_taylor(self, row: str, arguments: Sequence[Any]) -> bool:
-        """Whether the pendulum's own state is within."""
-        del row
-        return self.pendulum.within_taylor("state", arguments)
-
     def exact_row(self, row: str, argument: Any) -> tuple[Fraction] | None:
         """The start; at any other time a sum of cosines of algebraic numbers, which is transcendental (Lindemann)."""
         if argument != 0:
@@ -223,7 +213,7 @@ class LindstedtMotion(Expansion):
         return self.pendulum.working_bits(arguments) + self._lost(2 * self.order + 3)
 
 
-def period_series(pendulum: Pendulum, order: int) -> PeriodSeries:
+def period_series(pendulum: SimplePendulum, order: int) -> PeriodSeries:
     """The series of the period up to theta0^(2 order).
 
     Raises:
@@ -232,7 +222,7 @@ def period_series(pendulum: Pendulum, order: int) -> PeriodSeries:
     return PeriodSeries(_released(pendulum), order, series.period_series(order))
 
 
-def lindstedt(pendulum: Pendulum, order: int) -> LindstedtSolution:
+def lindstedt(pendulum: SimplePendulum, order: int) -> LindstedtSolution:
     """The solution of Lindstedt and Poincare up to theta0^(2 order + 1).
 
     Raises:
@@ -242,7 +232,7 @@ def lindstedt(pendulum: Pendulum, order: int) -> LindstedtSolution:
     return LindstedtSolution(_released(pendulum), order, found.frequency_squared, found.harmonics)
 
 
-def _released(pendulum: Pendulum) -> Pendulum:
+def _released(pendulum: SimplePendulum) -> SimplePendulum:
     if pendulum.kind != "release" or pendulum.theta0 < 0 or pendulum.turns:
         raise ValueError(
             f"{pendulum!r} is not released from rest at 0 < theta0 < pi; one that is has expansions in its amplitude."
@@ -260,7 +250,7 @@ class PeriodSeries:
         coefficients: of a^0, a^2, ... in T/T0, T0 = 2 pi sqrt(l/g), exact.
     """
 
-    pendulum: Pendulum
+    pendulum: SimplePendulum
     order: int
     coefficients: tuple[Fraction, ...]
 
@@ -290,7 +280,7 @@ class LindstedtSolution:
         harmonics: for a^1, a^3, ... the coefficients by m of cos(m w t), exact.
     """
 
-    pendulum: Pendulum
+    pendulum: SimplePendulum
     order: int
     frequency_squared: tuple[Fraction, ...]
     harmonics: tuple[series.Harmonics, ...]

@@ -11,11 +11,21 @@ from typing import TYPE_CHECKING, Any
 from reference.declaration import StateSpace, Trial
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
     from fractions import Fraction
 
     from reference.arithmetic.protocols import Arithmetic
 
-__all__ = ["ABOUT_REST", "SWING", "angular_acceleration", "condition", "energy", "energy_above_rest", "of_the_start"]
+__all__ = [
+    "ABOUT_REST",
+    "SWING",
+    "angular_acceleration",
+    "condition",
+    "energy",
+    "energy_above_rest",
+    "of_the_start",
+    "through_the_bottom",
+]
 
 SWING = StateSpace(
     positions=("theta",),
@@ -51,6 +61,11 @@ def energy_above_rest(m: Arithmetic, theta: Any, omega: Any, g: Any, length: Any
     """E - Emin = theta'^2/2 + 2 (g/l) sin^2(theta/2), in 1/s^2; without the cancellation of E + g/l."""
     half = m.sin(theta / 2)
     return omega * omega / 2 + 2 * (g / length) * half * half
+
+
+def through_the_bottom(m: Arithmetic, y: Sequence[Any]) -> Any:
+    """sin(theta/2), zero where the pendulum hangs at the bottom, after any whole turns."""
+    return m.sin(y[0] / 2)
 
 
 def condition(m: Arithmetic, w: Any, theta_theta: Any, theta_omega: Any, omega_theta: Any, omega_omega: Any) -> Any:

@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING, Any
 from reference.arithmetic.exact import as_number, exact
 from reference.arithmetic.limbs import ziv
 from reference.arithmetic.namespaces import BALL
+from reference.problems.pendulum.simple import DECISION_BITS
+from reference.problems.pendulum.taylor import per_period
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -16,13 +18,11 @@ if TYPE_CHECKING:
     from flint import arb
 
     from reference.certified import Certified
-    from reference.problems.pendulum.problem import Pendulum
+    from reference.problems.pendulum.simple import SimplePendulum
 
-__all__ = ["DECISION_BITS", "MAX_EVENTS", "Events", "events"]
+__all__ = ["MAX_EVENTS", "Events", "events"]
 
 MAX_EVENTS = 100_000
-DECISION_BITS = 128
-"""Precision at which a question of yes or no, or of a whole number, is first asked."""
 
 
 @dataclass(frozen=True)
@@ -33,7 +33,7 @@ class Events:
     turning_points: tuple[Certified, ...]
 
 
-def events(problem: Pendulum, until: Any) -> Events:
+def events(problem: SimplePendulum, until: Any) -> Events:
     """The passages through the bottom and the turning points in (0, until].
 
     Raises:
@@ -45,7 +45,7 @@ def events(problem: Pendulum, until: Any) -> Events:
     return Events(*(_of_row(problem, row, end) for row in ("zero_crossing", "turning_point")))
 
 
-def _of_row(problem: Pendulum, row: str, end: Fraction) -> tuple[Certified, ...]:
+def _of_row(problem: SimplePendulum, row: str, end: Fraction) -> tuple[Certified, ...]:
     if end == 0 or not problem.serves(row):
         return ()
     count = _count(problem, row, end)
@@ -56,9 +56,9 @@ def _of_row(problem: Pendulum, row: str, end: Fraction) -> tuple[Certified, ...]
     return tuple(problem.certified(row, j) for j in range(count))
 
 
-def _count(problem: Pendulum, row: str, end: Fraction) -> int:
+def _count(problem: SimplePendulum, row: str, end: Fraction) -> int:
     """Events of one kind up to a time, decided in balls: they are a period apart, in libration half of one."""
-    apart = 1 if problem.motion == "rotation" else 2
+    apart = per_period(problem)
 
     def after_the_first(_rows: Sequence[int]) -> list[list[arb]]:
         form: Any = problem.closed_form(BALL)

@@ -5,11 +5,11 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-import numpy as np
-
 from reference.family import Comparison, Family, Input, Reported
-from reference.layout import Coordinate, Group, Layout
-from reference.problems.pendulum import LinearPendulum, Pendulum, PendulumSeries
+from reference.layout import Coordinate, Group, Layout, parts
+from reference.problems.pendulum.approximations import PendulumSeries
+from reference.problems.pendulum.linear import LinearPendulum
+from reference.problems.pendulum.problem import Pendulum
 from reference.problems.pendulum.quantities import SERVED
 
 if TYPE_CHECKING:
@@ -168,47 +168,47 @@ def core() -> tuple[Group, ...]:
         Group(
             LIBRATION,
             EARTH,
-            {"amplitude": LIBRATION_AMPLITUDES, "time": np.arange(1001) / 100, "event": np.arange(EVENTS)},
+            {"amplitude": LIBRATION_AMPLITUDES, "time": parts(range(1001), 100), "event": range(EVENTS)},
         ),
-        Group(DIMENSIONLESS, UNIT, {"amplitude": FEW_BIT_AMPLITUDES, "time": np.arange(1025) / 16}),
-        Group(LONG, EARTH, {"amplitude": LONG_AMPLITUDES, "time": 2.0 ** np.arange(31)}, LONG_TAYLOR_ELEMENTS),
+        Group(DIMENSIONLESS, UNIT, {"amplitude": FEW_BIT_AMPLITUDES, "time": parts(range(1025), 16)}),
+        Group(LONG, EARTH, {"amplitude": LONG_AMPLITUDES, "time": [2.0**k for k in range(31)]}, LONG_TAYLOR_ELEMENTS),
         Group(
             ROTATION,
             EARTH,
-            {"initial_omega": ROTATION_OMEGAS, "time": np.arange(251) / 50, "event": np.arange(EVENTS)},
+            {"initial_omega": ROTATION_OMEGAS, "time": parts(range(251), 50), "event": range(EVENTS)},
         ),
-        Group(SEPARATRIX, {"initial_omega": 2.0, **UNIT}, {"time": np.arange(1025) / 32}),
-        Group(LINEAR, EARTH, {"amplitude": LIBRATION_AMPLITUDES[:7], "time": np.arange(1001) / 100}),
-        Group(SERIES, EARTH, {"amplitude": SERIES_AMPLITUDES, "order": np.arange(6)}),
+        Group(SEPARATRIX, {"initial_omega": 2.0, **UNIT}, {"time": parts(range(1025), 32)}),
+        Group(LINEAR, EARTH, {"amplitude": LIBRATION_AMPLITUDES[:7], "time": parts(range(1001), 100)}),
+        Group(SERIES, EARTH, {"amplitude": SERIES_AMPLITUDES, "order": range(6)}),
     )
 
 
 def full() -> tuple[Group, ...]:
     """The same groups with finer and larger grids, as far as they are proven within hours on two cores."""
-    sixty_fourths = np.arange(1, 202) / 64
-    amplitudes = np.unique(np.concatenate([LIBRATION_AMPLITUDES, sixty_fourths]))
-    expanded_at = np.unique(np.concatenate([SERIES_AMPLITUDES, np.arange(1, 33) / 16]))
-    halves = np.array([m * 2.0**j for j in range(31) for m in (1.0, 1.25, 1.5, 1.75)])
+    sixty_fourths = parts(range(1, 202), 64)
+    amplitudes = sorted({*LIBRATION_AMPLITUDES, *sixty_fourths})
+    expanded_at = sorted({*SERIES_AMPLITUDES, *parts(range(1, 33), 16)})
+    halves = [m * 2.0**j for j in range(31) for m in (1.0, 1.25, 1.5, 1.75)]
     return (
         Group(
             LIBRATION,
             EARTH,
-            {"amplitude": amplitudes, "time": np.arange(4001) / 400, "event": np.arange(4 * EVENTS)},
+            {"amplitude": amplitudes, "time": parts(range(4001), 400), "event": range(4 * EVENTS)},
         ),
-        Group(DIMENSIONLESS, UNIT, {"amplitude": sixty_fourths, "time": np.arange(4097) / 64}),
+        Group(DIMENSIONLESS, UNIT, {"amplitude": sixty_fourths, "time": parts(range(4097), 64)}),
         Group(LONG, EARTH, {"amplitude": amplitudes, "time": halves}, 4 * LONG_TAYLOR_ELEMENTS - 3),
         Group(
             ROTATION,
             EARTH,
             {
-                "initial_omega": np.unique(np.concatenate([ROTATION_OMEGAS, np.arange(101, 129) / 16])),
-                "time": np.arange(2501) / 500,
-                "event": np.arange(4 * EVENTS),
+                "initial_omega": sorted({*ROTATION_OMEGAS, *parts(range(101, 129), 16)}),
+                "time": parts(range(2501), 500),
+                "event": range(4 * EVENTS),
             },
         ),
-        Group(SEPARATRIX, {"initial_omega": 2.0, **UNIT}, {"time": np.arange(8193) / 256}),
-        Group(LINEAR, EARTH, {"amplitude": LIBRATION_AMPLITUDES, "time": np.arange(4001) / 400}),
-        Group(SERIES, EARTH, {"amplitude": expanded_at, "order": np.arange(11)}),
+        Group(SEPARATRIX, {"initial_omega": 2.0, **UNIT}, {"time": parts(range(8193), 256)}),
+        Group(LINEAR, EARTH, {"amplitude": LIBRATION_AMPLITUDES, "time": parts(range(4001), 400)}),
+        Group(SERIES, EARTH, {"amplitude": expanded_at, "order": range(11)}),
     )
 
 

@@ -13,21 +13,22 @@ from reference.arithmetic.namespaces import BALL, MPMATH
 from reference.arithmetic.precision import mp
 from reference.declaration import ENERGY_ABOVE_REST
 from reference.once import cached_property
-from reference.orbits import Harmonic
+from reference.orbits import HarmonicOrbits
 from reference.problem import APART, SeparableProblem
 from reference.problems.pendulum.equations import ABOUT_REST, SWING, of_the_start
 from reference.problems.pendulum.motions import Rest
 from reference.problems.pendulum.quantities import LINEAR_ROWS
-from reference.problems.pendulum.taylor import TAYLOR_RADIANS, hanging
-from reference.routes.taylor import Flow
+from reference.problems.pendulum.taylor import TAYLOR_RADIANS, a_radian
+from reference.routes.taylor import Along, Period
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
+    from collections.abc import Callable, Mapping, Sequence
 
     from reference.arithmetic.protocols import Arithmetic, EllipticArithmetic
     from reference.certified import Certified
     from reference.declaration import Invariant, Row, StateSpace, Trial
     from reference.orbits import Orbits
+    from reference.routes.taylor import Reading
 
 __all__ = ["LinearPendulum", "linear_acceleration", "linear_energy"]
 
@@ -69,6 +70,11 @@ class LinearPendulum(SeparableProblem):
     space: ClassVar[StateSpace] = SWING
     invariants: ClassVar[tuple[Invariant, ...]] = (ENERGY_ABOVE_REST,)
     trial: ClassVar[Trial] = ABOUT_REST
+    by_flow: ClassVar[Mapping[str, Reading]] = {
+        "state": Along(),
+        "energy": Along(lambda route, state: linear_energy(*state, **route.parameters), at=a_radian),
+        "period": Period(lambda _m, y: y[0], per_period=2),
+    }
 
     def __init__(self, theta0: Any, g: Any = 9.81, length: Any = 1.0, omega0: Any = 0) -> None:
         for name, value in (("theta0", theta0), ("g", g), ("length", length), ("omega0", omega0)):
@@ -128,7 +134,7 @@ class LinearPendulum(SeparableProblem):
         return LinearPendulum(rounding(self.theta0 * nearer), self.g, self.length, rounding(self.omega0 * nearer))
 
     def orbits(self) -> Orbits:
-        return Harmonic(self.start, (BALL.number(self.g) / BALL.number(self.length)).sqrt())
+        return HarmonicOrbits(self.start, (BALL.number(self.g) / BALL.number(self.length)).sqrt())
 
     @property
     def lacks_of_orbits(self) -> str:
@@ -144,10 +150,6 @@ class LinearPendulum(SeparableProblem):
 
     def _numbers(self, m: Any) -> tuple[Any, ...]:
         return (*(m.number(value) for value in (self.theta0, self.omega0, self.g, self.length)), 0)
-
-    def taylor_form(self, bits: int) -> LinearByTaylor:
-        """The flow of the equation of motion."""
-        return LinearByTaylor(self, bits)
 
     def within_taylor(self, row: str, arguments: Sequence[Any]) -> bool:
         """Whether every time lies in 0 <= sqrt(g/l) t <= TAYLOR_RADIANS; a pendulum at rest shows no period."""
@@ -200,19 +202,3 @@ class MatrixExponential(Linear):
         moved = mp.expm(mp.matrix([[0, rest], [-rest * self.w**2, 0]]), method="taylor")
         theta, omega = moved * mp.matrix([self.theta0, self.omega0])
         return theta, omega
-
-
-class LinearByTaylor:
-    """The rows by the flow of the equation alone."""
-
-    def __init__(self, problem: LinearPendulum, bits: int) -> None:
-        self._problem, self._flow = problem, Flow(problem, bits)
-
-    def rows(self, row: str, arguments: Sequence[Any]) -> list[tuple[Fraction, ...]]:
-        if row == "state":
-            return self._flow.at(arguments)
-        if row == "energy":
-            ((theta, omega),) = self._flow.at([Fraction(1 / self._problem.rate())])
-            return [(linear_energy(theta, omega, self._problem.g, self._problem.length),)]
-        first, second = self._flow.zeros(hanging, 7 / self._problem.rate())[:2]
-        return [(2 * (second - first),)]

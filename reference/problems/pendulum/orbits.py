@@ -1,4 +1,4 @@
-"""The pendulum's orbits: librations, rotations, and what surrounds rest."""
+"""The pendulum's action–angle variables: of librations, of rotations, and about rest."""
 
 from __future__ import annotations
 
@@ -29,12 +29,12 @@ class PendulumOrbits:
         self._frequency = 1 / problem.closed_form(BALL).rows("period", [None])[0][0] if periodic else arb(0)
 
     def truth(self, t: Fraction) -> Place:
-        """The start's place, and the phase t/T later."""
+        """The start's phase, t/T later."""
         phase = self._start.phase
         return Place(None if phase is None else phase + BALL.number(t) * self._frequency, self._start.amplitude)
 
     def place(self, y: Sequence[arb]) -> Place:
-        """The place of a state (theta, theta')."""
+        """Phase and amplitude of a state (theta, theta')."""
         raise NotImplementedError
 
     def _half(self, y: Sequence[arb]) -> tuple[arb, arb, arb]:
@@ -47,7 +47,7 @@ class Librations(PendulumOrbits):
     """sn u = s/k, cn u = p/k: phase u/(4 K) since the last upward passage through the bottom, amplitude 2 asin k."""
 
     def place(self, y: Sequence[arb]) -> Place:
-        """The place of a state with less energy than the separatrix."""
+        """Phase and amplitude of a state with less energy than the separatrix."""
         s, c, p = self._half(y)
         squares = s * s, p * p
         square, rest = squares[0] + squares[1], (c - p) * (c + p)
@@ -67,7 +67,7 @@ class Rotations(PendulumOrbits):
         super().__init__(problem)
 
     def place(self, y: Sequence[arb]) -> Place:
-        """The place of a state that goes over the top in the motion's direction."""
+        """Phase and amplitude of a state that goes over the top in the motion's direction."""
         s, c, p = self._half(y)
         if not (p * self._direction > 0 and abs(p) > c):
             return NOWHERE

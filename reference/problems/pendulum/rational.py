@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Any
 from reference.arithmetic.exact import rational_root
 
 if TYPE_CHECKING:
-    from reference.problems.pendulum.problem import Pendulum
+    from collections.abc import Mapping
 
 __all__ = ["rational"]
 
@@ -25,31 +25,33 @@ ONE, ZERO = Fraction(1), Fraction(0)
 Values = tuple[Fraction | None, ...]
 
 
-def rational(problem: Pendulum, row: str, argument: Any) -> Values | None:
+def rational(start: tuple[Fraction, ...], parameters: Mapping[str, Fraction], row: str, argument: Any) -> Values | None:
     """The values of a row that are rational, None for the others; None where all are."""
+    theta0, omega0 = start
     if argument is None:
-        return _of_the_bottom(problem).get(row) if problem.theta0 == 0 else None
+        return _of_the_bottom(omega0, parameters["g"] / parameters["length"]).get(row) if theta0 == 0 else None
     at_start: dict[str, Values] = {
-        "state": problem.start,
+        "state": start,
         "sensitivity": (ONE, ZERO),
         "curvature": (ZERO, ZERO),
         "gradient": (ONE, ZERO, ZERO, ZERO, ZERO, ONE, ZERO, ZERO),
         "condition": (ONE,),
     }
     at_rest: dict[str, Values] = {
-        "state": problem.start,
+        "state": start,
         "gradient": (None, None, ZERO, ZERO, None, None, ZERO, ZERO),
         "condition": (ONE,),
     }
     if argument == 0 and row in at_start:
         return at_start[row]
-    return at_rest.get(row) if problem.motion == "rest" else None
+    return at_rest.get(row) if theta0 == omega0 == 0 else None
 
 
-def _of_the_bottom(problem: Pendulum) -> dict[str, Values]:
-    square = problem.omega0**2 * problem.length / (4 * problem.g)
+def _of_the_bottom(omega0: Fraction, square: Fraction) -> dict[str, Values]:
+    """From theta0 = 0, with square = g/length."""
+    modulus = omega0**2 / (4 * square)
     return {
-        "energy": (problem.omega0**2 / 2 - problem.g / problem.length,),
-        "modulus": (rational_root(square),),
-        "complementary_modulus": (rational_root(1 - square),),
+        "energy": (omega0**2 / 2 - square,),
+        "modulus": (rational_root(modulus),),
+        "complementary_modulus": (rational_root(1 - modulus),),
     }

@@ -1,5 +1,1 @@
 """The brachistochrone in an inverse-square field: z = r/r0 from rest at z = 1 through the lowest point z0."""
-
-from reference.problems.polar.problem import PolarBrachistochrone
-
-__all__ = ["PolarBrachistochrone"]

@@ -22,11 +22,11 @@ from reference.problems.polar.boundary import DECISION_BITS, end_of, exponent_ne
 from reference.problems.polar.numerical import Numerical
 from reference.problems.polar.panels import panels_of
 from reference.problems.polar.quantities import Z
-from reference.problems.polar.taylor import TaylorExtremal
+from reference.problems.polar.taylor import BY_FLOW
 from reference.row_domains import Domain
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Mapping, Sequence
 
     from reference.arithmetic.protocols import Arithmetic
     from reference.certified import Certified
@@ -34,6 +34,7 @@ if TYPE_CHECKING:
     from reference.declaration import Row
     from reference.problems.polar.equations import End, Field
     from reference.problems.polar.extremal import Extremal
+    from reference.routes.taylor import Reading
 
 __all__ = ["CentralBrachistochrone"]
 
@@ -72,6 +73,7 @@ class CentralBrachistochrone(Problem):
     trial: ClassVar[Trial] = Trial(
         states=((0.5, 0.9), (-0.5, 0.5), (-1.0, 1.0)), parameters={"kappa": (0.5, 2.0)}, step=(0.001, 0.01)
     )
+    by_flow: ClassVar[Mapping[str, Reading]] = BY_FLOW
     max_bits: ClassVar[int] = 1 << 14
     field: ClassVar[Field]
 
@@ -205,10 +207,6 @@ class CentralBrachistochrone(Problem):
         """The closed form in balls; in mpmath the form by numerical integration."""
         return _form(self, m is BALL, ctx.prec if m is BALL else mp.prec)
 
-    def taylor_form(self, bits: int) -> TaylorExtremal:
-        """The flow of the equations of the motion in tau and of the curve in psi."""
-        return _taylor_form(self, bits)
-
     @cached_property
     def near_lowest(self) -> float:
         """z0 as a float."""
@@ -316,12 +314,6 @@ def _form(problem: CentralBrachistochrone, in_balls: bool, bits: int) -> Extrema
     if goal is None:
         return extremal(m, problem.z0, None, unit)
     return extremal(m, lowest_point(m, goal, extremal, exponent_near(goal, problem.extremal)), goal, unit)
-
-
-@lru_cache(maxsize=8)
-def _taylor_form(problem: CentralBrachistochrone, bits: int) -> TaylorExtremal:
-    form: Any = problem.closed_form(MPMATH)
-    return TaylorExtremal(form, None if problem.z0 is None else problem.parameters["kappa"], bits)
 
 
 @dataclass(frozen=True)

@@ -5,11 +5,9 @@ from __future__ import annotations
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
 from reference.arithmetic.exact import as_number, exact
 from reference.family import Comparison, End, Family, Input, Marched, Reported
-from reference.layout import Coordinate, Group, Layout
+from reference.layout import Coordinate, Group, Layout, parts
 from reference.problems.polar.bodies import BODIES
 from reference.problems.polar.paths import PolarByPsi, PolarByZ
 from reference.problems.polar.problem import PolarBrachistochrone
@@ -108,28 +106,30 @@ ENDS = tuple((z, phi) for z in (1.0, 0.75, 0.5, 0.25) for phi in (0.25, 1.0, 1.5
 
 def core() -> tuple[Group, ...]:
     """The grids of the dataset that ships with the package."""
-    epsilon = np.array([1, 4, 8]) / 16  # a negative one gives the same
+    epsilon = parts([1, 4, 8], 16)  # a negative one gives the same
     return (
         Group(
-            EXTREMALS, {}, {"z0": LOWEST, "psi": np.arange(202) / 64, "height": np.arange(33) / 32, "epsilon": epsilon}
+            EXTREMALS,
+            {},
+            {"z0": LOWEST, "psi": parts(range(202), 64), "height": parts(range(33), 32), "epsilon": epsilon},
         ),
-        Group(MOTION, {}, {"z0": LOWEST, "tau": np.arange(193) / 64}),
+        Group(MOTION, {}, {"z0": LOWEST, "tau": parts(range(193), 64)}),
         Group(BOUNDARY, {}, {"end_z": [end[0] for end in ENDS], "end_phi": [end[1] for end in ENDS]}),
     )
 
 
 def full() -> tuple[Group, ...]:
     """The same groups with finer and larger grids, as far as they are proven within hours on two cores."""
-    lowest = np.unique(np.concatenate([LOWEST, np.arange(1, 64) / 64]))
-    epsilon = np.arange(1, 17) / 16
-    ends = [(z, phi) for z in np.arange(1, 17) / 16 for phi in np.arange(1, 17) / 8]
+    lowest = sorted({*LOWEST, *parts(range(1, 64), 64)})
+    epsilon = parts(range(1, 17), 16)
+    ends = [(z, phi) for z in parts(range(1, 17), 16) for phi in parts(range(1, 17), 8)]
     return (
         Group(
             EXTREMALS,
             {},
-            {"z0": lowest, "psi": np.arange(805) / 256, "height": np.arange(513) / 512, "epsilon": epsilon},
+            {"z0": lowest, "psi": parts(range(805), 256), "height": parts(range(513), 512), "epsilon": epsilon},
         ),
-        Group(MOTION, {}, {"z0": lowest, "tau": np.arange(3073) / 1024}),
+        Group(MOTION, {}, {"z0": lowest, "tau": parts(range(3073), 1024)}),
         Group(BOUNDARY, {}, {"end_z": [end[0] for end in ends], "end_phi": [end[1] for end in ends]}),
     )
 

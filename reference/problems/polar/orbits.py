@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
     from reference.problem import Problem
 
-__all__ = ["CentralOrbits", "PointMassRadii", "TunnelRadii"]
+__all__ = ["CentralOrbits", "PointMassOrbits", "TunnelOrbits"]
 
 STEPS = 400
 """Of Newton's method, whose steps near a double zero halve the distance only."""
@@ -44,7 +44,7 @@ class CentralOrbits:
         return Place(arb(0.5) + BALL.number(t) * self._frequency, (1 - self.z0) / 2)
 
     def place(self, y: Sequence[arb]) -> Place:
-        """The place of a state (z, z', phi), of which phi has no part in it."""
+        """Phase and amplitude of a state (z, z', phi), of which phi has no part in it."""
         raise NotImplementedError
 
     def _energy(self, y: Sequence[arb]) -> arb:
@@ -52,7 +52,7 @@ class CentralOrbits:
         return found
 
 
-class TunnelRadii(CentralOrbits):
+class TunnelOrbits(CentralOrbits):
     """Through a uniform ball z^2 is harmonic: (z^2)'' = 2 (E + 2 kappa) - 4 (1 + kappa) z^2, at every energy E."""
 
     def place(self, y: Sequence[arb]) -> Place:
@@ -67,7 +67,7 @@ class TunnelRadii(CentralOrbits):
         return Place(arb.atan2(across, below) / (2 * arb.pi()) if size > 0 else None, amplitude)
 
 
-class PointMassRadii(CentralOrbits):
+class PointMassOrbits(CentralOrbits):
     """About a point mass z'^2 = (E - 1) + w - kappa w^2 (1 + w)^2, w = (1 - z)/z: bound in the well where E < 2.
 
     The well of the exact motion is the only one where kappa <= 3 sqrt(3); above, the right-hand side has a hump, the
@@ -83,7 +83,7 @@ class PointMassRadii(CentralOrbits):
         self._hump = -arb(0.5) - (2 * arb.pi() / 3 - angle.acos() / 3).cos() / root if angle > -1 else arb(-1)
 
     def place(self, y: Sequence[arb]) -> Place:
-        """The place of a state that is bound, and in the well."""
+        """Phase and amplitude of a state that is bound, and in the well."""
         z, rate, excess = y[0], y[1], self._energy(y) - 1
         if not (z > 0 and excess < 1):
             return NOWHERE

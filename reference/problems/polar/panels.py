@@ -1,9 +1,8 @@
-"""Gauss's rule over panels no wider than the integrands are smooth, and the time table of an extremal in floats.
+"""Quadrature rules for an extremal: Gauss's over panels as wide as the integrand is smooth, and the trapezoidal rule.
 
-Integrals of periodic functions by the trapezoidal rule, whose error falls geometrically.
-
-For f of period 2 pi, analytic and |f| <= M in the strip |Im x| <= a, the rule with n points is within
-4 pi M/(exp(a n) - 1) of the integral (L. N. Trefethen and J. A. C. Weideman, SIAM Review 56, 385, 2014, theorem 3.2).
+The latter's error falls geometrically for a periodic function: for f of period 2 pi, analytic and |f| <= M in the strip
+|Im x| <= a, the rule with n points is within 4 pi M/(exp(a n) - 1) of the integral (L. N. Trefethen and J. A. C.
+Weideman, SIAM Review 56, 385, 2014, theorem 3.2).
 """
 
 from __future__ import annotations
@@ -14,10 +13,9 @@ from bisect import bisect_right
 from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
 from flint import acb, arb
 
-from reference.arithmetic.namespaces import BALL, NUMPY, ComplexBall
+from reference.arithmetic.namespaces import BALL, ComplexBall
 from reference.arithmetic.precision import ctx, mp
 
 if TYPE_CHECKING:
@@ -100,6 +98,8 @@ NEARNESS = 4
 """A panel reaches from its middle at most this part of the way to the nearest singularity: per node of Gauss's rule an
 integral gains at least log2(4 + sqrt(17)) = 3 bits twice."""
 FLOAT_NODES = 12
+FLOATS: Any = math
+"""What the rates of a field ask of an arithmetic, the module has for floats."""
 
 
 class Panels:
@@ -127,7 +127,7 @@ class Panels:
 
 def panels_of(field: Field, z0: float) -> Panels:
     """For the rates of an extremal in psi."""
-    squares = (complex(*point) for point in field.singular(NUMPY, inner(z0)))
+    squares = (complex(*point) for point in field.singular(FLOATS, inner(z0)))
     first = [2 * cmath.acos(cmath.sqrt(square)) for square in squares]
     return Panels(first + [2 * math.pi - point for point in first], 2 * math.pi)
 
@@ -138,10 +138,11 @@ def inner(z0: float) -> float:
 
 
 @lru_cache(maxsize=1)
-def _rule() -> tuple[np.ndarray, np.ndarray]:
+def _rule() -> list[tuple[float, float]]:
     """Gauss's nodes and weights on [-1, 1]."""
-    nodes, weights = np.polynomial.legendre.leggauss(FLOAT_NODES)
-    return nodes, weights
+    with ctx.workprec(BOUND_BITS):
+        rule = [arb.legendre_p_root(FLOAT_NODES, i, weight=True) for i in range(FLOAT_NODES)]
+    return [(float(node), float(weight)) for node, weight in rule]
 
 
 class Schedule:
@@ -154,13 +155,13 @@ class Schedule:
         for low, high in zip(self._psi[:-1], self._psi[1:], strict=True):
             self._tau.append(self._tau[-1] + self._passed(low, high))
 
-    def _rate(self, psi: Any) -> Any:
-        return self._field.rates(NUMPY, self._z0, np.sin(psi / 2) ** 2, np.cos(psi / 2) ** 2)[1]
+    def _rate(self, psi: float) -> float:
+        rate: float = self._field.rates(FLOATS, self._z0, math.sin(psi / 2) ** 2, math.cos(psi / 2) ** 2)[1]
+        return rate
 
     def _passed(self, low: float, high: float) -> float:
-        nodes, weights = _rule()
         half = (high - low) / 2
-        return half * float(weights @ np.broadcast_to(self._rate(low + half + half * nodes), nodes.shape))
+        return half * sum(weight * self._rate(low + half + half * node) for node, weight in _rule())
 
     def psi_at(self, part: float) -> float:
         """psi at a part of the descent time from -1 to 1, to about the accuracy of floats."""
@@ -173,7 +174,7 @@ class Schedule:
         for _ in range(60):
             late = self._tau[i - 1] + self._passed(start, psi) - tau
             low, high = (low, psi) if late > 0 else (psi, high)
-            moved = psi - late / float(self._rate(psi))
+            moved = psi - late / self._rate(psi)
             if not low <= moved <= high:
                 moved = (low + high) / 2
             if abs(moved - psi) <= 1e-15 * psi:

@@ -17,12 +17,14 @@ from reference.once import cached_property
 from reference.problem import APART, Problem
 from reference.problems.polar.equations import POINT_MASS
 from reference.problems.polar.problem import PolarBrachistochrone
+from reference.routes.taylor import taylor_route
 from reference.row_domains import Reals
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
+    from collections.abc import Callable, Mapping, Sequence
 
     from reference.arithmetic.protocols import Arithmetic
+    from reference.routes.taylor import Reading, TaylorRoute
     from reference.row_domains import Domain
 
 __all__ = ["PolarByPsi", "PolarByZ"]
@@ -109,6 +111,13 @@ class _Along(ClosedForm):
         return [(*self._curve.summed(one), self._m.number(a)) for one, a in zip(found, arguments, strict=True)]
 
 
+def along_the_motion(route: TaylorRoute, _row: str, arguments: Sequence[Fraction]) -> list[tuple[Any, ...]]:
+    """The state of a curve from the row of its motion, which the flow reads where the curve itself is regular."""
+    curve = route.problem
+    found = taylor_route(curve.polar, route.bits).rows(curve.row_of_polar, [curve.argument(a) for a in arguments])
+    return [(*curve.summed(one), a) for one, a in zip(found, arguments, strict=True)]
+
+
 @dataclass(frozen=True, init=False, repr=False)
 class PolarByZ(PolarCurve):
     """dphi/dz = -(z0^(3/2)/z) sqrt((1 - z)/((z - z0) Q)), marched downwards by the depth d = 1 - z.
@@ -130,6 +139,7 @@ class PolarByZ(PolarCurve):
         "dphi/dz = -(z0^(3/2)/z) sqrt((1 - z)/((z - z0) Q)), Q = (1 - z0) z^2 + z0 (1 - z0) z + z0^2, down from z = 1",
     )
     row_of_polar: ClassVar[str] = "by_z"
+    by_flow: ClassVar[Mapping[str, Reading]] = {"state": along_the_motion}
 
     @staticmethod
     def derivative(m: Arithmetic, t: Any, y: Sequence[Any], p: dict[str, Any]) -> tuple[Any, ...]:

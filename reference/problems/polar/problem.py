@@ -12,7 +12,7 @@ from reference.problems.polar.bodies import body_of
 from reference.problems.polar.carlson import Carlson
 from reference.problems.polar.central import CentralBrachistochrone
 from reference.problems.polar.equations import POINT_MASS
-from reference.problems.polar.orbits import PointMassRadii
+from reference.problems.polar.orbits import PointMassOrbits
 from reference.problems.polar.quantities import ROWS
 from reference.problems.polar.series import EQUAL, Limit, deep, shallow
 
@@ -80,7 +80,7 @@ class PolarBrachistochrone(CentralBrachistochrone):
         return f"PolarBrachistochrone({self._spelled('r0', 'gm')})"
 
     def orbits(self) -> Orbits:
-        return PointMassRadii(self)
+        return PointMassOrbits(self)
 
     @property
     def unit(self) -> tuple[Fraction, Fraction] | None:

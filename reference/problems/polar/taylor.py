@@ -1,157 +1,150 @@
-"""The brachistochrone in a central field by heyoka's Taylor method: the motion in time, and the curve in psi."""
+"""How the Taylor route reads a brachistochrone in a central field: of its motion in tau, and of its curve in psi.
+
+Where the motion is at rest its curve is regular in psi, z = 1 - (1 - z0) sin^2(psi/2) by definition of psi for a point
+mass; z0, and psi where an argument is neither tau nor psi, are those of the solution by quadrature.
+"""
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
-from reference.arithmetic.namespaces import MPMATH
 from reference.arithmetic.precision import mp
 from reference.arithmetic.quadrature import to_fraction
-from reference.once import cached_property
 from reference.problems.polar.optimality import chord_geometry
-from reference.routes.taylor import Flow
+from reference.routes.flow import System
+from reference.routes.taylor import Along
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
+    from collections.abc import Callable, Mapping, Sequence
 
     from reference.arithmetic.protocols import Arithmetic
     from reference.problems.polar.equations import Field
-    from reference.problems.polar.numerical import Numerical
+    from reference.routes.taylor import Reading, TaylorRoute
 
-__all__ = ["Equations", "System", "TaylorExtremal"]
+__all__ = ["BY_FLOW"]
 
 ZERO, ONE = Fraction(0), Fraction(1)
 
 
 @dataclass(frozen=True)
-class System:
-    """An equation, its start and its parameter: what a flow is of."""
+class Motion:
+    """(z, z', phi)' in tau."""
 
-    derivative: Callable[[Any, Any, Sequence[Any], dict[str, Any]], tuple[Any, ...]]
-    state_names: tuple[str, ...]
-    start: tuple[Fraction, ...]
-    parameters: dict[str, Fraction]
+    field: Field
 
-
-class Equations:
-    """The differential equations of one law of force; what is compiled of them serves every extremal."""
-
-    def __init__(self, field: Field) -> None:
-        self._field = field
-
-    def motion(self, m: Arithmetic, t: Any, y: Sequence[Any], p: dict[str, Any]) -> tuple[Any, ...]:
-        """(z, z', phi)' in tau."""
-        acceleration, turn = self._field.motion(m, y[0], p["kappa"])
+    def __call__(self, m: Arithmetic, t: Any, y: Sequence[Any], p: dict[str, Any]) -> tuple[Any, ...]:
+        del t
+        acceleration, turn = self.field.motion(m, y[0], p["kappa"])
         return y[1], acceleration, turn
 
-    def curve(self, m: Arithmetic, t: Any, y: Sequence[Any], p: dict[str, Any]) -> tuple[Any, ...]:
-        """(psi, phi, tau)' in psi."""
+
+@dataclass(frozen=True)
+class Curve:
+    """(psi, phi, tau)' in psi."""
+
+    field: Field
+
+    def __call__(self, m: Arithmetic, t: Any, y: Sequence[Any], p: dict[str, Any]) -> tuple[Any, ...]:
+        del t
         cosine2 = m.cos(y[0] / 2) * m.cos(y[0] / 2)
-        return m.number(ONE), *self._field.rates(m, p["z0"], 1 - cosine2, cosine2)
+        return m.number(ONE), *self.field.rates(m, p["z0"], 1 - cosine2, cosine2)
 
-    def bead(self, m: Arithmetic, t: Any, y: Sequence[Any], p: dict[str, Any]) -> tuple[Any, ...]:
-        """(s, s')' in tau on a straight line at the angle beta with the radius, z^2 = 1 - 2 s cos(beta) + s^2."""
+
+@dataclass(frozen=True)
+class Bead:
+    """(s, s')' in tau on a straight line at the angle beta with the radius, z^2 = 1 - 2 s cos(beta) + s^2."""
+
+    field: Field
+
+    def __call__(self, m: Arithmetic, t: Any, y: Sequence[Any], p: dict[str, Any]) -> tuple[Any, ...]:
+        del t
         cosine = p["cosine"]
-        return y[1], (cosine - y[0]) * self._field.pull(m.sqrt(1 - y[0] * (2 * cosine - y[0])))
+        return y[1], (cosine - y[0]) * self.field.pull(m.sqrt(1 - y[0] * (2 * cosine - y[0])))
 
 
-@lru_cache
-def equations_of(field: Field) -> Equations:
-    """One object for a law of force, by which compiled equations are known."""
-    return Equations(field)
+def _motion(route: TaylorRoute) -> System:
+    problem = route.problem
+    kappa = to_fraction(route.quadrature.kappa) if problem.z0 is None else problem.parameters["kappa"]
+    return System(Motion(problem.field), ("z", "z_rate", "phi"), (ONE, ZERO, ZERO), {"kappa": kappa})
 
 
-class TaylorExtremal:
-    """The rows that integrating gives; ``form`` is asked for z0, and for psi where an argument is none of either's."""
+def _curve(route: TaylorRoute) -> System:
+    z0 = to_fraction(route.quadrature.z0)
+    return System(Curve(route.problem.field), ("psi", "phi", "tau"), (ZERO, ZERO, ZERO), {"z0": z0})
 
-    def __init__(self, form: Numerical, kappa: Fraction | None, bits: int) -> None:
-        self._form, self._equations, self._bits = form, equations_of(form.field), bits
-        kappa, z0 = kappa or to_fraction(form.kappa), to_fraction(form.z0)
-        equations = self._equations
-        self._motion = self._flow(equations.motion, ("z", "z_rate", "phi"), (ONE, ZERO, ZERO), kappa=kappa)
-        self._curve = self._flow(equations.curve, ("psi", "phi", "tau"), (ZERO, ZERO, ZERO), z0=z0)
 
-    def _flow(self, derivative: Any, names: tuple[str, ...], start: tuple[Fraction, ...], **of: Fraction) -> Flow:
-        return Flow(System(derivative, names, start, of), self._bits)
+def _chord(route: TaylorRoute) -> System:
+    _, _, cosine = chord_geometry(route.m, *route.quadrature.chord)
+    return System(Bead(route.problem.field), ("way", "speed"), (ZERO, ZERO), {"cosine": to_fraction(cosine)})
 
-    def rows(self, row: str, arguments: Sequence[Any]) -> list[tuple[Fraction, ...]]:
-        once: dict[str, Callable[[], Fraction]] = {
-            "half_angle": lambda: self._lowest[1],
-            "descent_time": lambda: self._lowest[2],
-            "dhalf_angle_dz0": lambda: self._lowest[4],
-            "ddescent_time_dz0": lambda: self._lowest[5],
-            "arrival_time": lambda: self._arrival,
-            "chord_time": lambda: self._chord,
-            "chord_gap": lambda: self._chord - self._arrival,
-            "descent_seconds": lambda: self._lowest[2] * self._second,
-            "arrival_seconds": lambda: self._arrival * self._second,
-        }
-        if row in once:
-            return [(once[row](),)]
-        along: dict[str, Callable[[Sequence[Fraction]], list[tuple[Fraction, ...]]]] = {
-            "state": self._motion.at,
-            "curve": self._at_psis,
-            "by_height": self._by_height,
-            "by_z": self._by_z,
-            "si_curve": self._si_curve,
-            "si_state": self._si_state,
-        }
-        return along[row](arguments)
 
-    @cached_property
-    def _ends(self) -> list[tuple[Fraction, ...]]:
-        """psi, phi, tau and their derivatives by z0, at the lowest point and at the end."""
-        return self._curve.at([to_fraction(psi) for psi in (+mp.pi, self._form.psi_end)], ("z0",))
+def _chord_time(route: TaylorRoute, row: str, arguments: Sequence[Any]) -> list[Any]:
+    """When the bead is at the end of the line, or halfway where it would come to rest there: twice as long."""
+    length, *_ = chord_geometry(route.m, *route.quadrature.chord)
+    folded = 1 if route.quadrature.last[0] else 2
+    (guess,) = route.guesses(row, arguments)
+    (time,) = route.corrected(lambda _m, y, _problem: y[0], [length / folded], [guess / folded], _chord)
+    return [time * folded]
 
-    @property
-    def _lowest(self) -> tuple[Fraction, ...]:
-        return self._ends[0]
 
-    @property
-    def _arrival(self) -> Fraction:
-        return self._ends[1][2]
+def _at_height(route: TaylorRoute, height: Fraction) -> Any:
+    return route.quadrature.psi_of_height(route.m.number(height))
 
-    @cached_property
-    def _chord(self) -> Fraction:
-        """When the bead is at the end of the line, or halfway where it would come to rest there: twice as long.
 
-        Newton's method by the flow, from a time in double precision.
-        """
-        length, _, cosine = chord_geometry(MPMATH, *self._form.chord)
-        folded = 1 if self._form.last[0] else 2
-        bead = self._flow(self._equations.bead, ("way", "speed"), (ZERO, ZERO), cosine=to_fraction(cosine))
-        time, end = Fraction(float(self._form.chord_time)) / folded, to_fraction(length) / folded
-        for _ in range(round(math.log2(self._bits / 53)) + 1):
-            ((way, speed),) = bead.at([time])
-            time += (end - way) / speed
-        return time * folded
+def _at_z(route: TaylorRoute, z: Fraction) -> Any:
+    z0 = route.quadrature.z0
+    return route.quadrature.psi_of_height((route.m.number(z) - z0) / (1 - z0))
 
-    @cached_property
-    def _second(self) -> Fraction:
-        return to_fraction(self._form.time_unit)
 
-    def _at_psis(self, psis: Sequence[Fraction]) -> list[tuple[Fraction, ...]]:
-        """z by its definition, phi and tau by the flow."""
-        heights = [to_fraction(self._form.height(MPMATH.number(psi))) for psi in psis]
-        return [(z, *state[1:]) for z, state in zip(heights, self._curve.at(psis), strict=True)]
+def _point(route: TaylorRoute, state: Sequence[Any]) -> tuple[Any, ...]:
+    psi, phi, tau = state
+    return route.quadrature.height(psi), phi, tau
 
-    def _by_height(self, heights: Sequence[Fraction]) -> list[tuple[Fraction, ...]]:
-        psis = [self._form.psi_of_height(MPMATH.number(height)) for height in heights]
-        return self._at_psis([to_fraction(psi) for psi in psis])
 
-    def _by_z(self, values: Sequence[Fraction]) -> list[tuple[Fraction, ...]]:
-        psis = [self._form.psi_of_height((MPMATH.number(z) - self._form.z0) / (1 - self._form.z0)) for z in values]
-        return [state[1:] for state in self._at_psis([to_fraction(psi) for psi in psis])]
+def _of_the_end(component: int, scaled: Callable[[TaylorRoute], Any] = lambda _route: 1) -> Along:
+    """phi or tau at the end of the path."""
+    return Along(
+        lambda route, state: state[component] * scaled(route), at=lambda route, _: route.quadrature.psi_end, of=_curve
+    )
 
-    def _si_curve(self, psis: Sequence[Fraction]) -> list[tuple[Fraction, ...]]:
-        length = to_fraction(self._form.length)
-        return [(z * length, tau * self._second) for z, _, tau in self._at_psis(psis)]
 
-    def _si_state(self, times: Sequence[Fraction]) -> list[tuple[Fraction, ...]]:
-        length = to_fraction(self._form.length)
-        states = self._motion.at([time / self._second for time in times])
-        return [(z * length, rate * length / self._second, phi) for z, rate, phi in states]
+def _of_the_lowest(component: int, scaled: Callable[[TaylorRoute], Any] = lambda _route: 1) -> Along:
+    """psi, phi, tau or one of their derivatives by z0 at the lowest point, psi = pi."""
+    return Along(
+        lambda route, state: state[component] * scaled(route), at=lambda _route, _: +mp.pi, of=_curve, by=("z0",)
+    )
+
+
+def _seconds(route: TaylorRoute) -> Any:
+    return route.quadrature.time_unit
+
+
+def _si_curve(route: TaylorRoute, state: Sequence[Any]) -> tuple[Any, ...]:
+    z, _, tau = _point(route, state)
+    return z * route.quadrature.length, tau * _seconds(route)
+
+
+def _si_state(route: TaylorRoute, state: Sequence[Any]) -> tuple[Any, ...]:
+    (z, rate, phi), length = state, route.quadrature.length
+    return z * length, rate * length / _seconds(route), phi
+
+
+BY_FLOW: Mapping[str, Reading] = {
+    "state": Along(lambda _route, state: state, of=_motion),
+    "curve": Along(_point, of=_curve),
+    "by_height": Along(_point, at=_at_height, of=_curve),
+    "by_z": Along(lambda _route, state: state[1:], at=_at_z, of=_curve),
+    "half_angle": _of_the_lowest(1),
+    "descent_time": _of_the_lowest(2),
+    "dhalf_angle_dz0": _of_the_lowest(4),
+    "ddescent_time_dz0": _of_the_lowest(5),
+    "descent_seconds": _of_the_lowest(2, _seconds),
+    "arrival_time": _of_the_end(2),
+    "arrival_seconds": _of_the_end(2, _seconds),
+    "chord_time": _chord_time,
+    "chord_gap": lambda route, _row, _: [route.value("chord_time") - route.value("arrival_time")],
+    "si_curve": Along(_si_curve, of=_curve),
+    "si_state": Along(_si_state, at=lambda route, t: route.m.number(t) / _seconds(route), of=_motion),
+}

@@ -6,9 +6,8 @@ z^2 phi'/v^2 = sqrt(kappa), and it is the hypocycloid
 
     z^2 = z0^2 sin^2(psi/2) + cos^2(psi/2),   phi = atan(z0 tan(psi/2)) - z0 psi/2,   tau = sqrt(1 - z0^2) psi/2,
 
-of a circle of radius (1 - z0)/2 that rolls inside the planet (G. Venezian, Am. J. Phys. 34, 701, 1966).
-
-The hypocycloid in closed form, in any arithmetic: elementary functions alone.
+of a circle of radius (1 - z0)/2 that rolls inside the planet (G. Venezian, Am. J. Phys. 34, 701, 1966): in closed form
+by elementary functions alone.
 """
 
 from __future__ import annotations

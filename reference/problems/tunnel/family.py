@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import numpy as np
-
 from reference.family import Comparison, End, Family, Input, Marched, Reported
-from reference.layout import Coordinate, Group, Layout
+from reference.layout import Coordinate, Group, Layout, parts
 from reference.problems.polar.family import EPSILON, HEIGHT, IN_A_FIELD, LOWEST, ONCE, PSI, Z0, in_a_field, rows
 from reference.problems.tunnel.problem import Tunnel
 
@@ -47,28 +45,28 @@ LAYOUTS = (HYPOCYCLOIDS, MOTION)
 
 def core() -> tuple[Group, ...]:
     """The grids of the dataset that ships with the package."""
-    epsilon = np.array([1, 4, 8]) / 16  # a negative one gives the same
+    epsilon = parts([1, 4, 8], 16)  # a negative one gives the same
     return (
         Group(
             HYPOCYCLOIDS,
             {},
-            {"z0": LOWEST[::4], "psi": np.arange(202) / 64, "height": np.arange(33) / 32, "epsilon": epsilon},
+            {"z0": LOWEST[::4], "psi": parts(range(202), 64), "height": parts(range(33), 32), "epsilon": epsilon},
         ),
-        Group(MOTION, {}, {"z0": LOWEST[::4], "tau": np.arange(193) / 64}),
+        Group(MOTION, {}, {"z0": LOWEST[::4], "tau": parts(range(193), 64)}),
     )
 
 
 def full() -> tuple[Group, ...]:
     """The same groups with finer and larger grids, as far as they are proven within hours on two cores."""
-    lowest = np.unique(np.concatenate([LOWEST, np.arange(1, 64) / 64]))
-    epsilon = np.arange(1, 17) / 16
+    lowest = sorted({*LOWEST, *parts(range(1, 64), 64)})
+    epsilon = parts(range(1, 17), 16)
     return (
         Group(
             HYPOCYCLOIDS,
             {},
-            {"z0": lowest, "psi": np.arange(805) / 256, "height": np.arange(513) / 512, "epsilon": epsilon},
+            {"z0": lowest, "psi": parts(range(805), 256), "height": parts(range(513), 512), "epsilon": epsilon},
         ),
-        Group(MOTION, {}, {"z0": lowest, "tau": np.arange(3073) / 1024}),
+        Group(MOTION, {}, {"z0": lowest, "tau": parts(range(3073), 1024)}),
     )
 
 

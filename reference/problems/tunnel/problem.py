@@ -1,7 +1,4 @@
-"""The fastest tunnel through a planet of uniform density, as a problem: exact parameters, proven answers.
-
-What can be asked of a tunnel through a uniform planet: names, units and definitions.
-"""
+"""The fastest tunnel through a planet of uniform density, as a problem: what can be asked of it, and its parameters."""
 
 from __future__ import annotations
 
@@ -12,7 +9,7 @@ from reference.arithmetic.exact import exact, rational_root
 from reference.problem import APART
 from reference.problems.polar.bodies import body_of
 from reference.problems.polar.central import CentralBrachistochrone
-from reference.problems.polar.orbits import TunnelRadii
+from reference.problems.polar.orbits import TunnelOrbits
 from reference.problems.polar.quantities import Definitions, rows_of
 from reference.problems.tunnel.equations import UNIFORM_BALL, Hypocycloid
 
@@ -85,7 +82,7 @@ class Tunnel(CentralBrachistochrone):
         return f"Tunnel({self._spelled('r0', 'g')})"
 
     def orbits(self) -> Orbits:
-        return TunnelRadii(self)
+        return TunnelOrbits(self)
 
     @property
     def equation(self) -> str:

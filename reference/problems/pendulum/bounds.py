@@ -1,4 +1,4 @@
-"""The pendulum's exact motion in doubles, for many rows at once, and how far from the truth each number may be.
+"""The pendulum's exact motion in doubles, for many states at once, and how far from the truth each number may be.
 
 From the nearest of many nodes, whose states are proven, the addition theorem of ``motions`` leads to any time, with
 
@@ -6,22 +6,21 @@ From the nearest of many nodes, whose states are proven, the addition theorem of
 
 of which what is left out is below 2^-52 u (DLMF 22.10.1; the coefficients are at most those of tan, and for m > 1 those
 of sn(sqrt(m) u | 1/m)/sqrt(m)).  A time is reduced by whole periods in pairs of doubles, so that it loses nothing.
-Nothing here is reported: it decides only which rows cannot matter, and the enclosure judges the others.
 
-Phases, amplitudes and energies of many states of a pendulum in doubles, and by how much they may be off.
-
-What is lost comes of the differences c - |p|, near the separatrix, and of sin(theta/2) where theta has whole turns:
+Phase, amplitude and energy of a state follow from s, c = sin, cos(theta/2) and p = theta'/(2 w).  What is lost comes of
+the differences c - |p|, near the separatrix, and of sin(theta/2) where theta has whole turns:
 
     kappa = 1 + (1 + |theta|) (c + |p|)/|c^2 - p^2| + |theta|/k where |theta| > 4
 
-times a few dozen roundings bounds the relative error of what ``swings`` computes from s, c and p.
+times a few dozen roundings bounds the relative error of what is computed from s, c and p.
+Nothing here is reported: it decides only which states cannot matter, and the enclosure judges the others.
 """
 
 from __future__ import annotations
 
 import math
 from fractions import Fraction
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from flint import arb
@@ -30,11 +29,12 @@ from reference.arithmetic.namespaces import BALL, NUMPY
 from reference.arithmetic.precision import ctx
 from reference.problems.pendulum.motions import addition
 from reference.routes import enclosure
+from reference.state_bounds import Bounds, Found
 
 if TYPE_CHECKING:
-    from reference.problems.pendulum import Pendulum
+    from reference.problem import Problem
 
-__all__ = ["SLACK", "Found", "Places", "Sketch", "sketch"]
+__all__ = ["SLACK", "PendulumBounds"]
 
 TURNED = 4.0
 """rad: beyond, the sine of half an angle has lost digits."""
@@ -42,32 +42,16 @@ CLOSE = 1 / 100
 """Carlson's series, of which the terms of the eighth degree are left out, is taken where its variables are below."""
 
 
-class Found(NamedTuple):
-    """Bounds on what is found of rows, float64 [rows].
-
-    Attributes:
-        phase: at least |phase error|, rad; infinite where the row may have none.
-        amplitude: at least |amplitude error|, rad.
-        energy: at least |energy error|.
-        lost: whether the row may be on no orbit of the exact motion's kind.
-    """
-
-    phase: np.ndarray
-    amplitude: np.ndarray
-    energy: np.ndarray
-    lost: np.ndarray
-
-
 class Places:
     """Where states of a libration's or rotation's kind are, against the exact motion."""
 
-    def __init__(self, problem: Pendulum) -> None:
-        self._problem, self._rotates = problem, problem.motion == "rotation"
-        self._direction = 1 if problem.omega0 > 0 else -1
+    def __init__(self, problem: Problem, *, rotates: bool) -> None:
+        self._problem, self._rotates = problem, rotates
+        self._direction = 1 if problem.start[1] > 0 else -1
         self._parameters = {name: float(value) for name, value in problem.parameters.items()}
         with ctx.workprec(BITS + problem.working_bits([])):
             kind = problem.orbits()
-            start = None if kind is None else kind.truth(problem.theta0 * 0)
+            start = None if kind is None else kind.truth(Fraction(0))
             self._phase = float("nan") if start is None or start.phase is None else float(start.phase)
             self._amplitude = float("nan") if start is None or start.amplitude is None else float(start.amplitude)
             parameters = {name: BALL.number(value) for name, value in problem.parameters.items()}
@@ -168,25 +152,25 @@ class Sketched(NamedTuple):
     """The time over the period, less whole ones, to SLACK."""
 
 
-def sketch(problem: Pendulum) -> Sketch | None:
+def sketch(problem: Problem, *, rotates: bool) -> Sketch | None:
     """The sketch of a libration or rotation; None where its period is too long for one."""
     with ctx.workprec(BITS + problem.working_bits([])):
-        form = problem.closed_form(BALL)
-        scale = max(1.0, float(form.modulus))  # type: ignore[attr-defined]
-        pieces = math.ceil(float(form.period * form.w) * scale / (2 * WIDEST))  # type: ignore[attr-defined]
-        return Sketch(problem, pieces) if pieces <= MOST_NODES else None
+        form: Any = problem.closed_form(BALL)
+        scale = max(1.0, float(form.modulus))
+        pieces = math.ceil(float(form.period * form.w) * scale / (2 * WIDEST))
+        return Sketch(problem, pieces, rotates=rotates) if pieces <= MOST_NODES else None
 
 
 class Sketch:
     """The motion by its states at ``pieces`` + 1 times, equally far from each other, over one period."""
 
-    def __init__(self, problem: Pendulum, pieces: int) -> None:
-        form = problem.closed_form(BALL)
-        period = form.period  # type: ignore[attr-defined]
+    def __init__(self, problem: Problem, pieces: int, *, rotates: bool) -> None:
+        form: Any = problem.closed_form(BALL)
+        period = form.period
         self.w = float(form.w)
         self.frequency = float(1 / period)
-        self.square = float(form.modulus**2)  # type: ignore[attr-defined]
-        self._advance = 2 * math.pi * form.direction if problem.motion == "rotation" else 0.0  # type: ignore[attr-defined]
+        self.square = float(form.modulus**2)
+        self._advance = 2 * math.pi * form.direction if rotates else 0.0
         self._period, self._frequency = _pair(period), _pair(1 / period)
         mantissa, exponent = math.frexp(float(period / pieces))
         self._piece = math.ldexp(round(math.ldexp(mantissa, PIECE_BITS)), exponent - PIECE_BITS)
@@ -250,3 +234,29 @@ def _split(a: np.ndarray | np.float64) -> tuple[np.ndarray, np.ndarray]:
     large = a * 134217729.0
     high = np.asarray(large - (large - a))
     return high, np.asarray(a - high)
+
+
+class PendulumBounds:
+    """What many states of a libration or a rotation share."""
+
+    def __init__(self, problem: Problem, *, rotates: bool) -> None:
+        self._sketch, self._places = sketch(problem, rotates=rotates), Places(problem, rotates=rotates)
+
+    def bounds(self, numbers: np.ndarray, rounding: float) -> Bounds | None:
+        """The bounds of rows of t, theta and omega, each of which may be wrong by ``rounding`` of itself.
+
+        None where the motion has no sketch.
+        """
+        if self._sketch is None:
+            return None
+        t, theta, omega = numbers.T
+        with np.errstate(all="ignore"):
+            true = self._sketch.states(t, rounding)
+            truths = np.stack([true.theta, true.omega], axis=1)
+            apart = np.stack([true.theta_within, true.omega_within], axis=1)
+            within = apart + SLACK * np.abs(numbers[:, 1:])
+            about = numbers[:, 1:] - truths
+            errors, least = np.abs(about) + within, np.abs(truths) - within
+            digits = np.where(least > 0, np.maximum(0.0, -np.log10(errors / least) - SLACK), 0.0)
+            found = self._places.found(theta, omega, true, np.abs(t) * rounding * self._sketch.frequency)
+        return Bounds(about, errors, digits, np.abs(truths) + apart, found)
