@@ -209,6 +209,25 @@ class Candidate:
     form: Form
     name: str
 
+    def hold(self, scene: Scene) -> None:
+        """Refuse a form that a problem has no place for.
+
+        Raises:
+            MisuseError: positions and momenta are taken apart, and the problem does not split so.
+        """
+        problem = scene.problem
+        if not self.form.separable:
+            return
+        if not problem.positions:
+            lack = f"{problem!r} does not split into kicks and drifts; (f, y, h) is accepted"
+        elif not problem.autonomous:
+            lack = f"the force of {problem!r} depends on the time, which is not given; (f, t, y, h) is accepted"
+        elif not scene.follows_rates:
+            lack = f"p is not the rate of q in {problem!r}; (f, y, h) is accepted"
+        else:
+            return
+        raise MisuseError(f"{self.name} takes (q, p, force, h), but {lack}.")
+
     def field(self, scene: Scene, grid: int = 1) -> Field:
         """The right-hand side for one call of the function, which goes over so many times of a grid."""
         return Field(scene, MAX_CALLS * grid)

@@ -17,7 +17,7 @@ from compare.claims.defects import Evidence, reversibility, symplecticity
 from compare.claims.energy import energy
 from compare.claims.engine import Lanes, Steps, Traced, Whole, chosen, repeatable
 from compare.claims.findings import Claims
-from compare.claims.frames import Exhausted, Frame, MisuseError, Scene, scale_of_time
+from compare.claims.frames import Exhausted, Frame, MisuseError, Scene
 from compare.claims.half_step import half_step
 from compare.claims.heading import UNTRIED, Heading, heading
 from compare.claims.limits import SECONDS
@@ -25,7 +25,7 @@ from compare.claims.order import ladder, measured
 from compare.claims.powers import lower, powers
 from compare.claims.record import Check
 from reference.arithmetic.underflow import require_gradual
-from reference.problem import SeparableProblem
+from reference.problem import Problem
 from reference.problems.families import usual_problem
 
 if TYPE_CHECKING:
@@ -38,14 +38,12 @@ __all__ = ["check"]
 
 PURSUED = 0.25
 """Part of it within which an order that has not settled is pursued to finer steps."""
-SPAN = 20
-"""The order is measured over so many of the steps at which defects are: about one period."""
 CALLS = 100_000
 """Calls of f that the marches of one scene may take, lane by lane."""
 CALLS_ON_ARRAYS = 40_000
 """The same on arrays, where all lanes share a call."""
 FRAME = 0.5, 0.7
-"""Amplitude of the swinging frame in rad, and its frequency over that of small oscillations."""
+"""Amplitude of the swinging frame in rad, or over the size of a motion, and its frequency over the motion's rate."""
 MOST_STEPS = 4096
 LEAST_STEPS = 48
 LANES_OF_A_LADDER = 7
@@ -61,7 +59,7 @@ def check(
     order: float | None = None,
     symplectic: bool | None = None,
     reversible: bool | None = None,
-    problem: SeparableProblem | None = None,
+    problem: Problem | None = None,
     form: str | None = None,
     seconds: float = SECONDS,
 ) -> Check:
@@ -75,38 +73,55 @@ def check(
     Args:
         step: ``step(f, y, h)`` gives the state a step later; ``step(f, t, y, h)`` if it takes the time;
             ``step(q, p, force, h)`` gives (q, p); ``integrate(f, y0, t)`` the states at the times of a grid.  ``f`` is
-            called as f(y) or f(t, y), and gives an array of y's shape, positions first.
+            called as f(y) or f(t, y), and gives an array of y's shape, components in the order of the problem's state.
         order: the order that is claimed, or None.
         symplectic: whether it is claimed to be symplectic.
         reversible: whether it is claimed to be reversible.
-        problem: what it is tried on, the pendulum of 1 m released at 1 rad if None.
+        problem: what it is tried on, any motion in time; the pendulum of 1 m released at 1 rad if None.
         form: "step", "timed", "separable" or "integrator", where the arguments' names do not say it.
         seconds: time after which the check is given up.
 
     Raises:
-        TypeError: ``step`` cannot be called, or ``problem`` is no separable problem.
+        TypeError: ``step`` cannot be called, or ``problem`` is no problem.
         ValueError: the step raises, gives no finite real state of the right shape, depends on more than its arguments,
-            or takes too long; or the order of an integrator is claimed that chooses its own steps.
+            or takes too long; the order of an integrator is claimed that chooses its own steps; or the problem is a
+            curve, does not split as a separable step needs it, or depends on a time that the step does not give.
     """
     require_gradual("a check")
-    tried = usual_problem() if problem is None else problem
-    if not isinstance(tried, SeparableProblem):
-        raise TypeError(
-            f"problem is {tried!r}; a problem with positions and momenta, such as Pendulum(1.0), is accepted."
-        )
+    scene = Scene(usual_problem() if problem is None else _motion(problem))
     if order is not None and not _is_order(order):
         raise ValueError(f"order is {order!r}; a positive number below {MOST_ORDER} is accepted.")
     candidate = Candidate(step, form_of(step, form), _name(step))
+    candidate.hold(scene)
     try:
         with deadline(seconds):
             claims = Claims(None if order is None else float(order), symplectic, reversible)
-            return _checked(candidate, claims, Scene(tried), time.monotonic() + seconds * PURSUED)
+            return _checked(candidate, claims, scene, time.monotonic() + seconds * PURSUED)
     except Exhausted as error:
         raise MisuseError(f"{candidate.name} {error} in one step; it does not come to an end.") from None
     except TimeOut:
         raise MisuseError(
             f"{candidate.name} took more than {seconds:g} s; a step that returns is accepted, or a longer time."
         ) from None
+
+
+def _motion(problem: Any) -> Problem:
+    """A problem whose state at a time is proven.
+
+    Raises:
+        TypeError: it is no problem.
+        ValueError: it is a curve, or has no such row.
+    """
+    if not isinstance(problem, Problem):
+        raise TypeError(
+            f"problem is {problem!r}; a problem with positions and momenta, such as Pendulum(1.0), is accepted."
+        )
+    accepted = "a motion in time, such as Pendulum(1.0), is accepted."
+    if problem.space.along is not None:
+        raise ValueError(f"problem is {problem!r}, a curve along {problem.space.along}; {accepted}")
+    if not problem.serves("state") or problem.row("state").over in {"once", "index"}:
+        raise ValueError(f"problem is {problem!r}, without a state at a time; {accepted}")
+    return problem
 
 
 def _is_order(order: Any) -> bool:
@@ -118,15 +133,15 @@ def _name(step: Callable[..., Any]) -> str:
 
 
 def _checked(candidate: Candidate, claims: Claims, scene: Scene, until: float) -> Check:
-    h = scale_of_time(scene.problem)
+    h = scene.step
     marcher, calls, timed, name = _marcher(candidate, scene, h)
     counts = ladder(_most_steps(marcher, calls))
-    still = measured(marcher, SPAN * h, counts, until)
+    still = measured(marcher, scene.span, counts, until)
     _hold_measurable(candidate.name, still, claims)
     swinging = None
     if timed:
-        frame = Scene(scene.problem, Frame(FRAME[0], FRAME[1] * scene.problem.rate()))
-        swinging = measured(_marcher(candidate, frame, h)[0], SPAN * h, counts, until)
+        frame = Scene(scene.problem, Frame(FRAME[0], FRAME[1] * scene.pace, scene.units))
+        swinging = measured(_marcher(candidate, frame, h)[0], scene.span, counts, until)
         series = lower(powers(candidate, scene, h), powers(candidate, frame, h))
     else:
         series = None if marcher.whole else powers(candidate, scene, h)
@@ -135,7 +150,7 @@ def _checked(candidate: Candidate, claims: Claims, scene: Scene, until: float) -
     evidence = Evidence(
         possible=name != "compiled" and still.kind != "own steps",
         iterates=iterating,
-        bounded=kept.behaviour in {"rounding", "bounded"},
+        bounded=kept.bounded,
     )
     explicit = not (marcher.whole or iterating)
     found = Check(
@@ -153,7 +168,7 @@ def _checked(candidate: Candidate, claims: Claims, scene: Scene, until: float) -
         powers=series,
         advance=advance_of_a_constant_slope(candidate, scene, h) if explicit else None,
     )
-    return replace(found, hint=_hint(found, marcher, SPAN * h))
+    return replace(found, hint=_hint(found, marcher, scene.span))
 
 
 def _hold_measurable(name: str, found: Order, claims: Claims) -> None:

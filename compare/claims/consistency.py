@@ -32,20 +32,29 @@ GRID = 9
 
 @dataclass(frozen=True)
 class _Straight(Scene):
-    """q' = p, p' = force: p has a constant slope, and q has where the force is zero."""
+    """q' = p, p' = force: p has a constant slope, and q has where the force is zero; 1 is that of what has no rate."""
 
     force: float = 0.0
 
     def rates(self, m: Arithmetic, t: Any, y: Sequence[Any]) -> tuple[Any, ...]:  # noqa: ARG002 - of the scene
         """dy/dt."""
-        momenta = y[self.problem.positions :]
-        return *momenta, *(0 * p + self.force for p in momenta)
+        found = [0 * part + 1.0 for part in y]
+        for position, rate in self.problem.space.pairs:
+            found[position], found[rate] = y[rate], 0 * y[rate] + self.force
+        return tuple(found)
+
+    @property
+    def straight(self) -> list[int]:
+        """Where the components stand whose slope is 1, from zero with the momenta 1 - force."""
+        moving = self.rates_places if self.force else self.rated
+        return [i for i in range(self.dimension) if i in moving or i not in (*self.rated, *self.rates_places)]
 
 
 def advance_of_a_constant_slope(candidate: Candidate, scene: Scene, h: float) -> float:
     """By how many h an explicit step advances a component whose slope is 1: exactly 1.0 if it is right to rounding.
 
-    The worst of the positions under no force, from zero with momenta 1, and the momenta under the force 1, from zero.
+    The worst of the positions under no force, from zero with momenta 1, and the momenta under the force 1, from zero;
+    components without a rate are among both.
     """
     worst = 1.0
     for force in (0.0, 1.0):
@@ -60,14 +69,13 @@ def advance_of_a_constant_slope(candidate: Candidate, scene: Scene, h: float) ->
 
 def _advances(candidate: Candidate, scene: _Straight, h: float) -> np.ndarray:
     """Of each component with a constant slope, over h; 1 where the step gives no number at such a state."""
-    positions = scene.problem.positions
     y = np.zeros(scene.dimension)
-    y[positions:] = 1 - scene.force
+    y[scene.rates_places] = 1 - scene.force
     try:
         found = Lanes(candidate, scene).one(y, h, 0.0)
     except (MisuseError, Exhausted):
-        return np.ones(positions)
-    part = found[positions:] if scene.force else found[:positions]
+        return np.ones(len(scene.straight))
+    part = found[scene.straight]
     advance = np.where(np.isfinite(part), part / h, 1.0)
     narrow = np.array_equal(found, found.astype(np.float32).astype(np.float64))
     return np.where(np.abs(advance - 1) < NARROW_ROUNDING, 1.0, advance) if narrow else advance

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -9,6 +10,8 @@ import numpy as np
 
 from compare.claims.engine import Steps, Traced, trial_states
 from compare.claims.frames import MisuseError
+from compare.march.precision import precision
+from compare.measure.defects import canonical_places, has_symplectic_form, symplectic_change, symplectic_form
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -32,8 +35,9 @@ STEPS_OF_A_GRID = 12
 """Steps over which a whole integrator's map is differentiated: its first ones may be another method's."""
 STENCIL = (5 / 6, -5 / 21, 5 / 84, -5 / 504, 1 / 1260)
 """f'(x) = sum_k c_k (f(x + k d) - f(x - k d))/d, k = 1 ... 5, to order 10 (B. Fornberg, Math. Comp. 51, 1988, 699)."""
-SPACING = 1 / 50
-"""d over the size of the component: then rounding and truncation are both near 1e-14."""
+SPACING, CONFINED_SPACING = 1 / 50, 1 / 200
+"""d over the size of the component: then rounding and truncation are both near 1e-14; the second where a singularity
+may be near."""
 
 
 @dataclass(frozen=True)
@@ -46,6 +50,7 @@ class Defect:
         none: whether it is rounding, or the tolerance of an inner iteration.
         tolerance: whether it is the latter.
         undecided: whether it has the size of a tolerance, and nothing says that it is one or that it is a fault.
+        lacks: why there is no such defect, of which the size is then no number; None where there is one.
     """
 
     size: float
@@ -53,6 +58,7 @@ class Defect:
     none: bool
     tolerance: bool = False
     undecided: bool = False
+    lacks: str | None = None
 
 
 @dataclass(frozen=True)
@@ -107,17 +113,27 @@ def _largest(defects: np.ndarray) -> list[float]:
 
 
 def symplecticity(marcher: Marcher, h: float, evidence: Evidence) -> Defect:
-    """|det d(step)/dy - 1|, exact but for rounding where the step is compiled, else by differences of order ten.
+    """|S' W S - W|/|W|, S = d(step)/dy exact but for rounding where the step is compiled, else by differences.
 
-    Of a whole integrator it is that of the map over several steps.
+    W is the symplectic form, S' W S with W after the step; with one degree of freedom the defect is |det S M(after)/
+    M(before) - 1|, M the mass.  Of a whole integrator it is that of the map over several steps.
     """
+    problem = marcher.scene.problem
+    if not has_symplectic_form(problem):
+        return Defect(math.nan, h, none=False, lacks=f"{problem!r} declares no momenta, nor an energy that tells them")
     y, sizes = _trials(marcher, h)
     if isinstance(marcher, Steps) and isinstance(marcher.engine, Traced):
         jacobians = marcher.engine.jacobian(y, sizes)
     else:
         jacobians = _differences(marcher, y, sizes)
+    places, form = canonical_places(problem), symplectic_form(problem, precision("float64"))
+    slopes, after = jacobians[np.ix_(places, places)], _after(_steps_of_the_map(marcher), marcher, y, sizes)
     with np.errstate(over="ignore", invalid="ignore"):
-        defects = np.linalg.det(np.moveaxis(jacobians, -1, 0)) - 1
+        if len(places) == 2:
+            mass = form(after)[0, 1] / form(y)[0, 1]
+            defects = np.linalg.det(np.moveaxis(slopes, -1, 0)) * mass - 1
+        else:
+            defects = symplectic_change(slopes, form(y), form(after))[0]
     _hold_finite(defects, sizes)
     return _judged(_largest(np.abs(defects)), defects, h, evidence)
 
@@ -125,10 +141,10 @@ def symplecticity(marcher: Marcher, h: float, evidence: Evidence) -> Defect:
 def _differences(marcher: Marcher, y: np.ndarray, h: np.ndarray) -> np.ndarray:
     """d(step)/dy as [state, state, lanes] by the stencil."""
     d, lanes = y.shape
-    spacings = SPACING * np.max(np.abs(y), axis=1)
+    spacings = (CONFINED_SPACING if marcher.scene.confined else SPACING) * marcher.scene.sizes(y)
     shifts = [(i, k) for i in range(d) for k in range(-len(STENCIL), len(STENCIL) + 1) if k]
     moved = [y + (k * spacings[i] * np.eye(d)[i])[:, None] for i, k in shifts]
-    after = _after(STEPS_OF_A_GRID if marcher.whole else 1, marcher, np.hstack(moved), np.tile(h, len(shifts)))
+    after = _after(_steps_of_the_map(marcher), marcher, np.hstack(moved), np.tile(h, len(shifts)))
     jacobians = np.zeros((d, d, lanes))
     for place, (i, k) in enumerate(shifts):
         weight = np.sign(k) * STENCIL[abs(k) - 1] / spacings[i]
@@ -136,19 +152,32 @@ def _differences(marcher: Marcher, y: np.ndarray, h: np.ndarray) -> np.ndarray:
     return jacobians
 
 
+def _steps_of_the_map(marcher: Marcher) -> int:
+    return STEPS_OF_A_GRID if marcher.whole else 1
+
+
 def _after(steps: int, marcher: Marcher, y: np.ndarray, h: np.ndarray) -> np.ndarray:
     return np.stack([states[0] for states in marcher.states(y, h, [[steps]] * len(h))], axis=1)
 
 
 def reversibility(marcher: Marcher, h: float, evidence: Evidence) -> Defect:
-    """Steps forward, the momenta flipped, as many back: the distance from the start, over the components' sizes."""
+    """Steps forward, turned round, as many on: the distance from the start, over the components' sizes.
+
+    Where the equation depends on the time, that is turned round too: the way back leads from -t to 0.
+    """
+    scene = marcher.scene
+    space = scene.problem.space
+    if space.odd is None:
+        return Defect(math.nan, h, none=False, lacks=f"{scene.problem!r} declares no way back in time")
     start, sizes = _trials(marcher, h)
     flip = np.ones((len(start), 1))
-    flip[marcher.scene.problem.positions :] = -1
+    flip[space.places(space.odd)] = -1
     y = start
-    for _ in range(2):
-        y = flip * np.stack([states[-1] for states in marcher.states(y, sizes, [[STEPS_BACK]] * len(sizes))], axis=1)
+    steps = int(min(STEPS_BACK, scene.end / (2 * FACTORS[-1] * h)))
+    for before in (0, 0 if scene.problem.autonomous else steps):
+        ways = marcher.states(y, sizes, [[steps]] * len(sizes), before)
+        y = flip * np.stack([states[-1] for states in ways], axis=1)
     with np.errstate(all="ignore"):
-        gained = marcher.scene.energy(y.T) - marcher.scene.energy(start.T)
-    away = np.abs(y - start) / np.max(np.abs(start), axis=1)[:, None]
+        gained = np.zeros(len(sizes)) if scene.lacks_energy else scene.energy(y.T) - scene.energy(start.T)
+    away = np.abs(y - start) / scene.sizes(start)[:, None]
     return _judged(_largest(away), gained, h, evidence)

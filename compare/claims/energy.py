@@ -1,9 +1,10 @@
-"""What an integrator does to the energy over many periods: bounded, drifting, or blown up."""
+"""What an integrator does to the first invariant, the energy, over many periods: bounded, drifting, or blown up."""
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -28,10 +29,14 @@ class Energy:
     """The error of the energy over a long march.
 
     Attributes:
-        behaviour: "rounding", "bounded", "drifting" or "lost", which is by half of it or more.
-        largest: the largest |E - E0|/(E0 - Emin).
-        slope: of (E - E0)/(E0 - Emin), per second, with the half-width of its 95 % interval.
+        behaviour: "rounding", "bounded", "drifting" or "lost", which is by half of it or more; "short" where the motion
+            ends before any of these shows, "none" where there is nothing to be kept.
+        largest: the largest |E - E0| over the scale of the invariant, E0 - Emin for an energy above rest.
+        slope: of that change, per second, with the half-width of its 95 % interval.
         h: the step, s; ``steps`` of it were taken.
+        invariant: what it is called.
+        per: the unit of time of the slope, in words.
+        lacks: why no change can be told; None where it can.
     """
 
     behaviour: str
@@ -40,20 +45,34 @@ class Energy:
     slope_interval: float
     h: float
     steps: int
+    invariant: str = "energy"
+    per: str = "second"
+    lacks: str | None = None
+
+    @property
+    def bounded(self) -> bool:
+        """Whether it is seen to stay near its start."""
+        return self.behaviour in {"rounding", "bounded"}
 
 
 def energy(marcher: Marcher, h: float, steps: int) -> Energy:
-    """The energy over so many steps of h from the start."""
-    start = marcher.scene.start[:, None]
+    """The energy over so many steps of h from the start, no further than the motion goes."""
+    scene = marcher.scene
+    if scene.invariant is None or scene.lacks_energy:
+        return Energy("none", math.nan, math.nan, math.nan, h, 0, lacks=scene.lacks_energy)
+    units = scene.problem.space.independent
+    found = partial(Energy, invariant=scene.invariant.name, per={"s": "second", "": "unit of time"}.get(units, units))
+    steps = int(min(steps, scene.end / h))
+    start = scene.start[:, None]
     (states,) = marcher.states(start, np.array([h]), [range(1, steps + 1)])
     with np.errstate(all="ignore"):
-        errors = marcher.scene.energy(states)
+        errors = scene.energy(states)
     if not np.all(np.isfinite(errors)) or np.max(np.abs(errors)) > 1e6:
-        return Energy("lost", math.inf, math.nan, math.nan, h, steps)
+        return found("lost", math.inf, math.nan, math.nan, h, steps)
     sizes = np.abs(errors)
     largest, first = float(np.max(sizes)), float(np.max(sizes[: max(FEW_PERIODS, steps // 32)]))
     slope, half = slope_with_interval(h * np.arange(1, steps + 1), errors)
-    behaviour = "drifting" if largest > GROWTH * first else "bounded"
+    behaviour = "short" if math.isfinite(scene.end) else "drifting" if largest > GROWTH * first else "bounded"
     if largest <= ROUNDING or largest >= LOST:
         behaviour = "rounding" if largest <= ROUNDING else "lost"
-    return Energy(behaviour, largest, slope, half, h, steps)
+    return found(behaviour, largest, slope, half, h, steps)

@@ -38,8 +38,17 @@ class Marcher(Protocol):
     def whole(self) -> bool:
         """Whether it goes over a grid by itself."""
 
-    def states(self, starts: np.ndarray, h: np.ndarray, wanted: Sequence[Sequence[int]]) -> list[np.ndarray]:
-        """For each lane the states [times, state] after the wanted numbers of steps, which increase."""
+    @property
+    def near(self) -> Marcher:
+        """The same from a start close by."""
+
+    def states(
+        self, starts: np.ndarray, h: np.ndarray, wanted: Sequence[Sequence[int]], before: int = 0
+    ) -> list[np.ndarray]:
+        """For each lane the states [times, state] after the wanted numbers of steps, which increase.
+
+        They begin ``before`` steps before the time zero.
+        """
 
 
 @dataclass(frozen=True)
@@ -50,7 +59,16 @@ class Steps:
     scene: Scene
     whole: ClassVar[bool] = False
 
-    def states(self, starts: np.ndarray, h: np.ndarray, wanted: Sequence[Sequence[int]]) -> list[np.ndarray]:
+    @property
+    def near(self) -> Steps:
+        """The same engine where the right-hand side is the same, else one of its kind."""
+        scene = self.scene.neighbour()
+        same = scene.same_equation(self.scene)
+        return Steps(self.engine if same else type(self.engine)(self.engine.candidate, scene), scene)
+
+    def states(
+        self, starts: np.ndarray, h: np.ndarray, wanted: Sequence[Sequence[int]], before: int = 0
+    ) -> list[np.ndarray]:
         """All lanes in lockstep, each until its last wanted step."""
         events: dict[int, list[tuple[int, int]]] = defaultdict(list)
         for lane, steps in enumerate(wanted):
@@ -61,7 +79,7 @@ class Steps:
         alive = np.arange(len(wanted))
         y, sizes = starts.copy(), h.copy()
         for step in range(1, int(last.max()) + 1):
-            y = self.engine.advance(y, sizes, (step - 1) * sizes)
+            y = self.engine.advance(y, sizes, (step - 1 - before) * sizes)
             if step in events:
                 where = {int(lane): i for i, lane in enumerate(alive)}
                 for lane, place in events[step]:
@@ -79,13 +97,18 @@ class Whole:
     scene: Scene
     whole: ClassVar[bool] = True
 
-    def states(self, starts: np.ndarray, h: np.ndarray, wanted: Sequence[Sequence[int]]) -> list[np.ndarray]:
+    @property
+    def near(self) -> Whole:
+        return Whole(self.candidate, self.scene.neighbour())
+
+    def states(
+        self, starts: np.ndarray, h: np.ndarray, wanted: Sequence[Sequence[int]], before: int = 0
+    ) -> list[np.ndarray]:
         """One lane after another, each on its own grid."""
         found = []
         for start, size, steps in zip(starts.T, h, wanted, strict=True):
-            grid = size * np.arange(
-                max(steps[-1], len(start) + 1) + 1
-            )  # more times than components: no doubt which is which
+            last = max(steps[-1], len(start) + 1)  # more times than components: no doubt which is which
+            grid = size * np.arange(-before, last + 1 - before)
             field = self.candidate.field(self.scene, len(grid))
             found.append(self.candidate.states(field, start, grid)[list(steps)])
         return found
@@ -95,6 +118,10 @@ TRACED_CALLS = 64
 """Calls of f in one step up to which its expressions are worth compiling."""
 AGREEMENT = 1e-12
 TRIALS = 8
+TIMES, TURNS = 10.0, (20, 1000)
+"""Trials are at times up to the first, where that is between so many steps."""
+AROUND, NEAR = (0.7, 1.1), (0.95, 1.01)
+"""Part of a state of the motion that a trial begins with, the second where the motion may be confined."""
 
 
 class Lanes:
@@ -157,6 +184,7 @@ class Traced:
     name: ClassVar[str] = "compiled"
 
     def __init__(self, candidate: Candidate, scene: Scene) -> None:
+        self.candidate = candidate
         d = scene.dimension
         self._variables = [hy.expression(f"y{i}") for i in range(d)]
         h, t = hy.expression("h"), hy.expression("t")
@@ -194,8 +222,10 @@ def _called(function: Any, y: np.ndarray, h: np.ndarray, t: np.ndarray) -> np.nd
 def trial_states(scene: Scene, h: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Some states about the motion [state, lanes], step sizes up to ``h``, and times."""
     random = np.random.default_rng(20260101)
-    times = random.uniform(0, 10, TRIALS)
-    states = scene.problem.state(times).T * random.uniform(0.7, 1.1, (scene.dimension, TRIALS))
+    until = min(max(TIMES, TURNS[0] * scene.step), TURNS[1] * scene.step, scene.end / 4)
+    times = random.uniform(0, until, TRIALS)
+    part = NEAR if scene.confined else AROUND
+    states = scene.problem.state(times).T * random.uniform(*part, (scene.dimension, TRIALS))
     return states, h * random.uniform(0.2, 1.0, TRIALS), times
 
 

@@ -44,6 +44,18 @@ class Expansions:
         """A number that does not depend on h."""
         return Expansion(self, self.m.series(mp.mpf(float(value))))
 
+    def number(self, value: Fraction) -> Expansion:
+        """An exact rational."""
+        return Expansion(self, self.m.series(MPMATH.number(value)))
+
+    def pi(self) -> Expansion:
+        """The number pi."""
+        return Expansion(self, self.m.series(MPMATH.pi()))
+
+    def power(self, x: Any, exponent: Fraction) -> Expansion:
+        """x^exponent."""
+        return Expansion(self, self.m.power(x.series if isinstance(x, Expansion) else mp.mpf(float(x)), exponent))
+
     def known(self, last: int) -> None:
         """Compute the terms of all series up to the last, in an order in which none waits for another."""
         for k in range(last + 1):

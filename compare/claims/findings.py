@@ -52,9 +52,9 @@ class Findings:
         claims: what is said of it.
         still: the order on that problem.
         swinging: the order on the same seen from a swinging frame, where the time enters; None where it takes no time.
-        symplecticity: the defect |det d(step)/dy - 1|; None where the problem has no such structure.
+        symplecticity: the defect |det d(step)/dy - 1|, of more degrees of freedom |S' W S - W|/|W|.
         reversibility: the distance from the start after going forward, turning round and going back.
-        energy: what the energy does over a long march.
+        energy: what the energy does over a long march.  Each says why where the problem has no such structure.
         heading: whether it goes along f, forwards and backwards.
         powers: its power series in h held against the solution's, where it has one.
         advance: by how many h a constant slope is advanced, 1 if that is right to rounding; None where the step is not
@@ -120,12 +120,12 @@ class Findings:
 
     @property
     def symplecticity_defect(self) -> float:
-        """|det d(step)/dy - 1|."""
+        """|det d(step)/dy - 1|, or |S' W S - W|/|W|; not a number where the problem has no momenta."""
         return self.symplecticity.size
 
     @property
     def reversibility_defect(self) -> float:
-        """The distance from the start, relative to the motion's size."""
+        """The distance from the start, relative to the motion's size; not a number where there is no way back."""
         return self.reversibility.size
 
     @property
@@ -188,9 +188,9 @@ class Findings:
         """Of a claim of structure."""
         if not claimed:
             return None
-        if not self.possible or not (defect.none or defect.undecided):
+        if not self.possible or not (defect.none or defect.undecided or defect.lacks):
             return "fails"
-        return "open" if defect.undecided or self.heading.backward == "refused" else "holds"
+        return "open" if defect.lacks or defect.undecided or self.heading.backward == "refused" else "holds"
 
     @property
     def established(self) -> bool:

@@ -2,7 +2,7 @@
 
 The second is the first seen from a frame that swings: with theta(t) a solution of theta'' = F(theta) and
 s(t) = a (1 - cos(w t)), the positions q = theta + s obey q'' = F(q - s) + s'', and start where theta starts.  A stage
-that is taken at the wrong time sees the wrong s.
+that is taken at the wrong time sees the wrong s.  Momenta that are no velocities stay as they are, and q' gains s'.
 
 The right-hand side as a user's function sees it: f(y) or f(t, y), on floats, arrays of lanes, and symbols.
 """
@@ -21,16 +21,32 @@ from compare.measure.truth import errors_of_doubles
 from reference.arithmetic.compiler import hy
 from reference.arithmetic.namespaces import NUMPY, Heyoka
 from reference.once import cached_property
+from reference.problem import SeparableProblem
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Callable, Sequence
 
     from reference.arithmetic.protocols import Arithmetic
-    from reference.problem import SeparableProblem
+    from reference.declaration import Invariant
+    from reference.problem import Problem
 
-__all__ = ["Exhausted", "Field", "Frame", "MisuseError", "Scene", "scale_of_time"]
+__all__ = ["Exhausted", "Field", "Frame", "MisuseError", "Scene", "nonzero"]
 
 SYMBOLS = Heyoka()
+LONG = 2000
+"""A motion that goes on for so long, over the inverse of its rate, is one that does not end."""
+PARTS, MOST = 32, 15 / 16
+"""Of a motion that ends, the least number of steps, and the part over which the order is measured."""
+SPAN = 20
+"""The order is measured over so many of the steps at which defects are: about one period."""
+SIGHTS = 8
+"""Times at which the size of a motion is seen, and its compiled rates are held against plain ones."""
+AGREEMENT = 1e-12
+
+
+def nonzero(sizes: np.ndarray) -> np.ndarray:
+    """Sizes to divide by: 1 for what is always zero."""
+    return np.where(sizes > 0, sizes, 1.0)
 
 
 class MisuseError(ValueError):
@@ -71,13 +87,17 @@ class Field:
                 return np.array(self.scene.rates(series, t, tuple(y)), dtype=object)
             moment = hy.expression(float(t)) if isinstance(t, (int, float)) else t
             return np.array(self.scene.rates(SYMBOLS, moment, tuple(y)), dtype=object)
-        rates = self.scene.rates(NUMPY, t, tuple(y))
-        return np.array(rates) if y.ndim == 1 else np.array(np.broadcast_arrays(*rates))
+        return self.scene.evaluated(t, y)
 
     def _time_and_state(self, arguments: tuple[Any, ...]) -> tuple[Any, np.ndarray]:
         """Of two arguments the one with more axes is the state."""
         first = np.asarray(arguments[0]) if arguments else np.empty(0)
         if len(arguments) == 1 and first.ndim:
+            if not self.scene.problem.autonomous:
+                raise MisuseError(
+                    f"the step gives f no time, on which {self.scene.problem!r} depends; f(t, y) is accepted, as in a "
+                    "step (f, t, y, h)."
+                )
             return 0.0, first
         second = np.asarray(arguments[1]) if len(arguments) == 2 else first
         if first.ndim == second.ndim:
@@ -94,10 +114,14 @@ BINARY32 = Fraction(1, 1 << 24)
 
 @dataclass(frozen=True)
 class Frame:
-    """s(t) = a (1 - cos(w t)), with the first two of its derivatives; w in rad/s."""
+    """s(t) = a (1 - cos(w t)), with the first two of its derivatives; w in rad/s.
+
+    ``units`` are what each position that is displaced has for a unit; () where that is 1 for all.
+    """
 
     a: float
     w: float
+    units: tuple[float, ...] = ()
 
     def at(self, m: Arithmetic, t: Any) -> tuple[Any, Any, Any]:
         """(s, s', s'') at t."""
@@ -107,14 +131,14 @@ class Frame:
 
 @dataclass(frozen=True)
 class Scene:
-    """A separable problem, still or seen from a frame that swings.
+    """A motion in time, still or seen from a frame that swings.
 
     Attributes:
-        problem: the problem, with as many positions as momenta.
-        frame: how every position is displaced, or None.
+        problem: the problem, whose positions and rates are where its state space says.
+        frame: how the positions that have a rate are displaced, or all where none has one; or None.
     """
 
-    problem: SeparableProblem
+    problem: Problem
     frame: Frame | None = None
 
     @property
@@ -131,39 +155,191 @@ class Scene:
     def _parameters(self) -> dict[str, Any]:
         return {name: float(value) for name, value in self.problem.parameters.items()}
 
+    @cached_property
+    def rated(self) -> list[int]:
+        """Where the positions stand that have a rate."""
+        return [position for position, _ in self.problem.space.pairs]
+
+    @cached_property
+    def rates_places(self) -> list[int]:
+        """Where their rates stand: velocities or momenta."""
+        return [rate for _, rate in self.problem.space.pairs]
+
+    @cached_property
+    def displaced(self) -> list[int]:
+        """Where the positions stand that a frame displaces."""
+        return self.rated or self.problem.space.places(self.problem.space.positions)
+
+    @cached_property
+    def follows_rates(self) -> bool:
+        """Whether q' = p, or q' is the velocity itself, as it is seen at the start with other rates."""
+        if not self.rates_places:
+            return False
+        y = self.start
+        y[self.rates_places] = [(3 * k + 2) / 7 for k in range(len(self.rates_places))]
+        with np.errstate(all="ignore"):
+            found = self.problem.derivative(NUMPY, 0.0, list(y), self._parameters)
+        return all(found[position] == y[rate] for position, rate in self.problem.space.pairs)
+
+    @property
+    def confined(self) -> bool:
+        """Whether a state further off may fall into a singularity: not with one degree of freedom that splits."""
+        return self.problem.positions != 1
+
+    @cached_property
+    def pace(self) -> float:
+        """The rate of the motion, in 1/s; 1 where it has none, and any unit of time is as good."""
+        return self.problem.rate() or 1.0
+
+    @cached_property
+    def end(self) -> float:
+        """When the motion ends, within a part in a thousand; infinity where it goes on."""
+        domain = self.problem.domain(self.problem.row("state"))
+        low, high = 0.0, LONG / self.pace
+        if domain.contains(Fraction(high)):
+            return math.inf
+        while high - low > high / 1024:
+            middle = (low + high) / 2
+            low, high = (middle, high) if domain.contains(Fraction(middle)) else (low, middle)
+        return low
+
+    @cached_property
+    def step(self) -> float:
+        """One digit of 0.3/rate, the step at which defects are measured: 0.1 s for a pendulum of 1 m.
+
+        Of a motion that ends no more than a part of it.
+        """
+        return _one_digit(min(0.3 / self.pace, self.end / PARTS))
+
+    @property
+    def span(self) -> float:
+        """The time over which the order is measured."""
+        return min(SPAN * _one_digit(0.3 / self.pace), MOST * self.end)
+
+    @cached_property
+    def units(self) -> tuple[float, ...]:
+        """Of each position that is displaced: 1 rad of an angle, else one digit of the size of the motion."""
+        sizes = self.sizes(self._seen)
+        angles = self.problem.space.places(self.problem.space.angles)
+        return tuple(1.0 if place in angles else float(f"{sizes[place]:.0e}") for place in self.displaced)
+
+    @cached_property
+    def _seen(self) -> np.ndarray:
+        """Some states of the motion, [state, times]."""
+        until = Fraction(min(10 / self.pace, self.end / 2))
+        found: np.ndarray = self.problem.state([until * Fraction(k, SIGHTS) for k in range(SIGHTS + 1)]).T
+        return found
+
+    def sizes(self, states: np.ndarray) -> np.ndarray:
+        """The largest of each component of states [state, lanes]; of one that is always zero, of its kind."""
+        found: np.ndarray = np.max(np.abs(states), axis=1)
+        space = self.problem.space
+        for kind in (space.places(space.positions), space.places(space.rates)):
+            found[kind] = np.where(found[kind] > 0, found[kind], np.max(found[kind], initial=0.0))
+        return nonzero(found)
+
+    def same_equation(self, other: Scene) -> bool:
+        """Whether another scene has the same right-hand side, so that its start may be marched here."""
+        here, there = self.problem, other.problem
+        same: bool = (here.structure, here.parameters, self.frame) == (there.structure, there.parameters, other.frame)
+        return same
+
     def neighbour(self) -> Scene:
         """The same from a start close by."""
-        near = self.problem.neighbour(lambda value: Fraction(float(value)), BINARY32)
-        return Scene(near, self.frame)  # type: ignore[arg-type]
+        return Scene(self.problem.neighbour(lambda value: Fraction(float(value)), BINARY32), self.frame)
+
+    def _displacements(self, s: Any, speed: Any) -> list[tuple[int, Any]]:
+        """By how much each component is displaced that is: positions by s, and rates that they follow by s'."""
+        units = (self.frame and self.frame.units) or (1.0,) * len(self.displaced)
+        rates = zip(self.rates_places, units, strict=True) if self.follows_rates else ()
+        positions = zip(self.displaced, units, strict=True)
+        return [*((place, unit * s) for place, unit in positions), *((place, unit * speed) for place, unit in rates)]
 
     def rates(self, m: Arithmetic, t: Any, y: Sequence[Any]) -> tuple[Any, ...]:
         """dy/dt in an arithmetic whose numbers mix with floats."""
         if self.frame is None:
             return tuple(self.problem.derivative(m, t, y, self._parameters))
         s, speed, acceleration = self.frame.at(m, t)
-        positions = self.problem.positions
-        still = [*(q - s for q in y[:positions]), *(p - speed for p in y[positions:])]
-        rates = self.problem.derivative(m, t, still, self._parameters)
-        return *(rate + speed for rate in rates[:positions]), *(rate + acceleration for rate in rates[positions:])
+        still = list(y)
+        for place, shift in self._displacements(s, speed):
+            still[place] = still[place] - shift
+        rates = list(self.problem.derivative(m, t, still, self._parameters))
+        for place, shift in self._displacements(speed, acceleration):
+            rates[place] = rates[place] + shift
+        return tuple(rates)
+
+    def evaluated(self, t: Any, y: np.ndarray) -> np.ndarray:
+        """dy/dt of one state or of lanes of them."""
+        plain = y.ndim > 2 or y.dtype != np.float64 or np.asarray(t).dtype.kind not in "fiu"
+        function = None if plain else self._compiled
+        if function is None:
+            rates = self.rates(NUMPY, t, tuple(y))
+            return np.array(rates) if y.ndim == 1 else np.array(np.broadcast_arrays(*rates))
+        rows = np.empty((len(y) + 1, *y.shape[1:]))
+        rows[:-1], rows[-1] = y, t
+        found: np.ndarray = function(rows)
+        return found
+
+    @cached_property
+    def _compiled(self) -> Callable[[np.ndarray], np.ndarray] | None:
+        """The rates of states and times, where that is faster and agrees with plain evaluation.
+
+        A force that is written out is as fast plain; slopes of a Hamiltonian, or of a formula, are many times slower.
+        """
+        if isinstance(self.problem, SeparableProblem):
+            return None
+        variables = [hy.expression(f"y{i}") for i in range(self.dimension)]
+        rates = self.rates(SYMBOLS, hy.expression("t"), tuple(variables))
+        outputs = [rate if isinstance(rate, hy.expression) else hy.expression(float(rate)) for rate in rates]
+        function: Callable[[np.ndarray], np.ndarray] = hy.cfunc(outputs, vars=[*variables, hy.expression("t")])
+        times = np.arange(self._seen.shape[1]) / self.pace
+        found = function(np.ascontiguousarray(np.vstack([self._seen, times])))
+        plain = np.array(np.broadcast_arrays(*self.rates(NUMPY, times, tuple(self._seen))))
+        return function if np.all(np.abs(found - plain) <= AGREEMENT * (1 + np.abs(plain))) else None
 
     def errors(self, times: Sequence[Fraction], y: np.ndarray) -> np.ndarray:
         """y - truth, [times, state]."""
         if self.frame is not None:
             s, speed, _ = self.frame.at(NUMPY, np.array([float(t) for t in times]))
-            positions = self.problem.positions
-            displacement = np.stack([s] * positions + [speed] * (self.dimension - positions), axis=1)
-            y = y - displacement
+            y = y.copy()
+            for place, shift in self._displacements(s, speed):
+                y[:, place] -= shift
         return errors_of_doubles(self.problem, times, y)
 
+    @property
+    def invariant(self) -> Invariant | None:
+        """The first that is declared, the energy where there is one."""
+        return next(iter(self.problem.invariants), None)
+
+    @cached_property
+    def lacks_energy(self) -> str | None:
+        """Why no change of an invariant can be told; None where it can."""
+        if self.invariant is None:
+            return f"{self.problem!r} conserves nothing that is declared"
+        if not self._level[1] > 0:
+            return f"the change of its {self.invariant.name} has no scale: {self.problem!r} starts at zero"
+        return None
+
+    @cached_property
+    def _level(self) -> tuple[float, float]:
+        """The invariant at the start, and what its change is divided by."""
+        one = self.problem.invariants[0]
+        level = self._value(one.value, self.start)
+        return level, abs(level if one.scale == "start" else self._value(one.scale, self.start))
+
+    def _value(self, name: str, y: Any) -> Any:
+        return getattr(self.problem, name)(NUMPY, list(y), self._parameters)
+
     def energy(self, y: np.ndarray) -> np.ndarray:
-        """(E - E0)/(E0 - Emin) of states [times, state] of the still problem."""
-        start = float(self.problem.invariant(NUMPY, list(self.start), self._parameters))
-        found: np.ndarray = np.asarray(self.problem.invariant(NUMPY, list(y.T), self._parameters)) / start - 1.0
+        """The change of the first invariant over its scale, of states [times, state] of the still problem.
+
+        Of an energy above rest that is (E - E0)/(E0 - Emin).
+        """
+        level, scale = self._level
+        found: np.ndarray = np.asarray(self._value(self.problem.invariants[0].value, y.T)) / scale - level / scale
         return found
 
 
-def scale_of_time(problem: SeparableProblem) -> float:
-    """One digit of 0.3/rate, the step at which defects are measured: 0.1 s for a pendulum of 1 m."""
-    size = 0.3 / problem.rate()
+def _one_digit(size: float) -> float:
     unit = 10.0 ** math.floor(math.log10(size))
     return float(f"{round(size / unit) * unit:.0e}")

@@ -6,7 +6,7 @@ a step, a step s of such a method is one of order two in the form g s g^-1.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import product
 from typing import TYPE_CHECKING, ClassVar
 
@@ -41,22 +41,32 @@ class _Shifted:
     def scene(self) -> Scene:
         return self.marcher.scene
 
-    def states(self, starts: np.ndarray, h: np.ndarray, wanted: Sequence[Sequence[int]]) -> list[np.ndarray]:
-        found = self.marcher.states(self._moved(starts, self.part * h), h, wanted)
-        return [self._moved(states.T, -self.part * size).T for states, size in zip(found, h, strict=True)]
+    @property
+    def near(self) -> _Shifted:
+        return replace(self, marcher=self.marcher.near)
 
-    def _moved(self, y: np.ndarray, by: np.ndarray) -> np.ndarray:
-        positions = self.scene.problem.positions
+    def states(
+        self, starts: np.ndarray, h: np.ndarray, wanted: Sequence[Sequence[int]], before: int = 0
+    ) -> list[np.ndarray]:
+        found = self.marcher.states(self._moved(starts, self.part * h, -before * h), h, wanted, before)
+        return [
+            self._moved(states.T, -self.part * size, size * (np.array(steps) - before)).T
+            for states, size, steps in zip(found, h, wanted, strict=True)
+        ]
+
+    def _moved(self, y: np.ndarray, by: np.ndarray, t: np.ndarray) -> np.ndarray:
         moving = np.zeros((len(y), 1))
-        moving[slice(positions, None) if self.momenta else slice(positions)] = 1
+        moving[self.scene.rates_places if self.momenta else self.scene.rated] = 1
         with np.errstate(all="ignore"):
-            rates = np.array(np.broadcast_arrays(*self.scene.rates(NUMPY, 0.0, tuple(y))))
+            rates = np.array(np.broadcast_arrays(*self.scene.rates(NUMPY, t, tuple(y))))
             moved: np.ndarray = y + by * moving * rates
         return moved
 
 
 def half_step(marcher: Marcher, t_end: float) -> str | None:
-    """Where order two shows: "velocities" or "positions", and which way; None where it does not."""
+    """Where order two shows: "velocities" or "positions", and which way; None where it does not, or has no halves."""
+    if not marcher.scene.rated:
+        return None
     for momenta, part in product((True, False), (-0.5, 0.5)):
         found: Order = measured(_Shifted(marcher, momenta, part), t_end, COUNTS)
         if found.value is not None and found.value >= LEAST:

@@ -13,7 +13,7 @@ import numpy as np
 
 from compare.claims.consistency import uses
 from compare.claims.engine import Lanes, trial_states
-from compare.claims.frames import Exhausted, MisuseError
+from compare.claims.frames import Exhausted, MisuseError, nonzero
 from reference.arithmetic.namespaces import NUMPY
 
 if TYPE_CHECKING:
@@ -68,7 +68,7 @@ def heading(candidate: Candidate, scene: Scene, h: float) -> Heading:
     slopes = trial.slope(h / SHORTER)
     used = uses(candidate, scene, h)
     consistent = trial.along(slopes, trial.slope(h / SHORT))
-    cause = None if consistent else _cause(slopes, trial.rates, scene.problem.positions)
+    cause = None if consistent else _cause(slopes, trial.rates, scene)
     try:
         back = trial.along(trial.slope(-h / SHORTER), trial.slope(-h / SHORT)) and trial.as_good_back(h / 2)
     except (MisuseError, Exhausted):
@@ -83,7 +83,7 @@ class _Trial:
         self.plain = Lanes(candidate, scene)
         self.scene, self.times, self.y = scene, times, y
         self.rates = np.array([scene.rates(NUMPY, t, tuple(one)) for t, one in zip(times, y, strict=True)])
-        self.size = np.max(np.abs(self.rates), axis=0)
+        self.size = nonzero(np.max(np.abs(self.rates), axis=0))
 
     def after(self, h: float) -> np.ndarray:
         """The states a step later.
@@ -113,12 +113,13 @@ class _Trial:
 
     def _error(self, h: float) -> float:
         times = [Fraction(float(t)) + Fraction(h) for t in self.times]
-        return float(np.max(np.abs(self.scene.errors(times, self.after(h))) / np.max(np.abs(self.y), axis=0)))
+        return float(np.max(np.abs(self.scene.errors(times, self.after(h))) / self.scene.sizes(self.y.T)))
 
 
-def _cause(slopes: np.ndarray, rates: np.ndarray, positions: int) -> str | None:
+def _cause(slopes: np.ndarray, rates: np.ndarray, scene: Scene) -> str | None:
     """What a slope is in place of f, where it is known."""
-    first, second = slice(positions), slice(positions, None)
+    first = scene.problem.space.places(scene.problem.space.positions)
+    second = scene.rates_places or first
     return CAUSES.get((_multiple(slopes[:, first], rates[:, first]), _multiple(slopes[:, second], rates[:, second])))
 
 

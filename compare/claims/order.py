@@ -12,13 +12,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from compare.claims.frames import nonzero
 from compare.measure.order_fit import longest_run, slope_with_interval
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Iterator, Sequence
 
     from compare.claims.engine import Marcher
-    from compare.claims.frames import Scene
 
 __all__ = ["Cell", "Order", "ladder", "measured"]
 
@@ -26,6 +26,8 @@ SAMPLES = 4
 """Times of comparison, the same for every number of steps."""
 FLOOR_FACTOR = 30
 """An error within so many times the rounding noise is rounding."""
+EPSILON = 2.0**-52
+"""An error up to this for each step is rounding too, where the errors with all numbers of steps are."""
 FLAT, RISING = 0.5, 0.2
 """A slope below the first is no order, unless it is beyond the second and heading for more."""
 SMALL = 1e-3
@@ -127,7 +129,7 @@ def _settled(found: Order) -> bool:
 
 
 def _measured(marcher: Marcher, t_end: float, counts: Sequence[int]) -> Order:
-    here, there = _errors(marcher, t_end, counts)
+    here, there = _errors([marcher, marcher.near], t_end, counts)
     cells: list[Cell] = []
     for n, error, other in zip(counts, here, there, strict=True):
         with np.errstate(over="ignore", invalid="ignore"):
@@ -146,34 +148,42 @@ def _after(cells: Sequence[Cell], n: int, h: float, size: float, noise: float) -
 def _pursued(marcher: Marcher, t_end: float, found: Order, n: int) -> Order:
     """The same with a finer cell, from one start alone: its noise is that of the finest before, grown by the steps."""
     last = found.cells[-1]
-    here, _ = _errors(marcher, t_end, [n], scenes=(marcher.scene,))
+    (here,) = _errors([marcher], t_end, [n])
     with np.errstate(over="ignore", invalid="ignore"):
         size = float(np.max(np.abs(here[0])))
     finer = _after(found.cells, n, t_end / n, size, last.noise * n / last.n)
     return fitted([replace(cell, used=False) for cell in (*found.cells, finer)])
 
 
-def _errors(
-    marcher: Marcher, t_end: float, counts: Sequence[int], scenes: Sequence[Scene] = ()
-) -> tuple[list[np.ndarray], list[np.ndarray]]:
-    """Relative errors [samples, state] for each number of steps, from the start and from one close by."""
-    scenes = scenes or (marcher.scene, marcher.scene.neighbour())
+def _errors(marchers: Sequence[Marcher], t_end: float, counts: Sequence[int]) -> list[list[np.ndarray]]:
+    """Of each marcher the relative errors [samples, state] for each number of steps."""
     h = np.array([t_end / n for n in counts])
     wanted = [[n * (j + 1) // SAMPLES for j in range(SAMPLES)] for n in counts]
-    starts = np.stack([scene.start for scene in scenes for _ in counts], axis=1)
-    found = marcher.states(starts, np.tile(h, len(scenes)), wanted * len(scenes))
-    errors = []
-    for i, states in enumerate(found):
-        steps, size = wanted[i % len(counts)], Fraction(float(h[i % len(counts)]))
-        error = scenes[i // len(counts)].errors([step * size for step in steps], states)
-        with np.errstate(over="ignore", invalid="ignore"):  # a march that is lost has no error that is a number
-            errors.append(error / np.max(np.abs(states - error), axis=0))
-    return errors[: len(counts)], errors[len(counts) :]
+    errors: list[list[np.ndarray]] = []
+    for marcher, marches in zip(marchers, _marched(marchers, h, wanted), strict=True):
+        errors.append([])
+        for states, steps, size in zip(marches, wanted, map(Fraction, h.tolist()), strict=True):
+            error = marcher.scene.errors([step * size for step in steps], states)
+            with np.errstate(over="ignore", invalid="ignore"):  # a march that is lost has no error that is a number
+                errors[-1].append(error / nonzero(np.max(np.abs(states - error), axis=0)))
+    return errors
+
+
+def _marched(marchers: Sequence[Marcher], h: np.ndarray, wanted: Sequence[Sequence[int]]) -> Iterator[list[np.ndarray]]:
+    """The states of each from its start, all at once where they have one right-hand side."""
+    starts = [np.tile(marcher.scene.start[:, None], len(h)) for marcher in marchers]
+    if not all(marcher.scene.same_equation(marchers[0].scene) for marcher in marchers):
+        yield from (marcher.states(start, h, wanted) for marcher, start in zip(marchers, starts, strict=True))
+        return
+    count = len(marchers)
+    found = marchers[0].states(np.hstack(starts), np.tile(h, count), [*wanted] * count)
+    yield from (found[i * len(h) : (i + 1) * len(h)] for i in range(count))
 
 
 def fitted(cells: Sequence[Cell]) -> Order:
     """The slope where there is one: rounding and what lies beyond it, and a plateau at the fine end, are left out."""
-    usable = _above_the_floor(cells)
+    rounding = all(cell.error <= cell.n * EPSILON for cell in cells)
+    usable = [] if rounding else _above_the_floor(cells)
     if len(usable) < 2:
         kind = "floor" if cells[0].error <= SMALL else "flat"
         return Order(tuple(cells), None if kind == "floor" else 0.0, 0.0, kind)

@@ -78,7 +78,7 @@ def powers(candidate: Candidate, scene: Scene, h: float) -> Powers | None:
     try:
         with mp.workprec(BITS):
             trials = [_Trial(candidate, scene, y[:, i], float(times[i])) for i in range(STATES)]
-            differences = _differences(trials, 1 / scene.problem.rate(), np.max(np.abs(y), axis=1))
+            differences = _differences(trials, 1 / scene.pace, scene.sizes(y))
             agree = all(trial.agrees(h, len(differences)) for trial in trials)
     except (MisuseError, Exhausted, *NO_SERIES):
         return None

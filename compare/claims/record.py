@@ -112,7 +112,9 @@ class Check(Findings):
             ("reversible", self.claims.reversible, self.reversibility),
         ):
             measured = f"defect {defect.size:.0e} at h = {defect.h:g}"
-            if defect.none:
+            if defect.lacks:
+                words.append(f"{f'claims to be {what}, ' if claimed else f'{what} '}not applicable: {defect.lacks}")
+            elif defect.none:
                 to = " to the tolerance of its inner iteration" if defect.tolerance else ""
                 words.append(f"{what}{to} ({measured})")
             elif defect.undecided:
@@ -126,10 +128,12 @@ class Check(Findings):
 
     def _energy_words(self) -> str:
         found = self.energy
-        at = f"at h = {found.h:g}"
+        name, at = found.invariant, f"at h = {found.h:g}"
         return {
-            "rounding": f"energy kept to rounding (error {found.largest:.0e} {at})",
-            "bounded": f"energy bounded (error {found.largest:.0e} {at})",
-            "drifting": f"energy drifts by {found.slope:.0e} per second {at}",
-            "lost": f"energy not kept {at}",
+            "rounding": f"{name} kept to rounding (error {found.largest:.0e} {at})",
+            "bounded": f"{name} bounded (error {found.largest:.0e} {at})",
+            "drifting": f"{name} drifts by {found.slope:.0e} per {found.per} {at}",
+            "lost": f"{name} not kept {at}",
+            "short": f"error of the {name} {found.largest:.0e} {at}, bounded or not: the motion ends too soon",
+            "none": f"{name} not applicable: {found.lacks}",
         }[found.behaviour]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from compare.show.page import Lines, Page, Sentence, fields_of, in_lines
 from compare.show.text_table import Column, Grid, Table
@@ -56,8 +56,8 @@ def _table(name: str, title: str, order: Order) -> Table:
 
 
 def _data(found: Check) -> Lines:
-    """One object; what was not measured is null."""
-    answer = {
+    """One object; what was not measured is null, and ``not_applicable`` says why the problem has no such thing."""
+    answer: dict[str, Any] = {
         "name": found.name,
         "form": found.form,
         "engine": found.engine,
@@ -73,9 +73,9 @@ def _data(found: Check) -> Lines:
         "order_still": found.still.value,
         "order_where_time_enters": None if found.swinging is None else found.swinging.value,
         "symplecticity_defect": found.symplecticity.size,
-        "symplectic": found.symplecticity.none,
+        "symplectic": None if found.symplecticity.lacks else found.symplecticity.none,
         "reversibility_defect": found.reversibility.size,
-        "reversible": found.reversibility.none,
+        "reversible": None if found.reversibility.lacks else found.reversibility.none,
         "defects_at_h": {"symplecticity": found.symplecticity.h, "reversibility": found.reversibility.h},
         "energy": {
             "behaviour": found.energy.behaviour,
@@ -88,4 +88,11 @@ def _data(found: Check) -> Lines:
         "claims_hold": found.claims_hold,
         "errors": [fields_of(cell, "noise") for cell in found.still.cells],
     }
+    lacks = {
+        "symplectic": found.symplecticity.lacks,
+        "reversible": found.reversibility.lacks,
+        "energy": found.energy.lacks,
+    }
+    if lacks := {name: why for name, why in lacks.items() if why}:
+        answer["not_applicable"] = lacks
     return Lines(in_lines(answer).entries)

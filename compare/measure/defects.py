@@ -33,7 +33,7 @@ if TYPE_CHECKING:
     from compare.methods.kinds.one_step import Method
     from reference.problem import Problem
 
-__all__ = ["canonical_form", "defects", "symplectic_change"]
+__all__ = ["canonical_places", "defects", "has_symplectic_form", "symplectic_change", "symplectic_form"]
 
 STATES = 16
 """States of the exact motion at which the area is measured."""
@@ -83,51 +83,81 @@ def _form_defects(runs: Sequence[Run]) -> list[FormDefect]:
     method, course = runs[0].method, runs[0].course
     method = method.base if isinstance(method, Compensated) else method
     problem = course.problem
-    known = problem.space.momenta or (problem.space.velocities and (problem.positions or problem.invariants))
-    if not known or method.memory(len(problem.state_names), problem.positions):
+    if not has_symplectic_form(problem) or method.memory(len(problem.state_names), problem.positions):
         return [NO_FORM] * len(runs)
     largest = max(float(run.course.h) for run in runs)
     step = _compiled(method, course, iterations_for(method, problem, largest, course.fmt.bits))
-    form = _canonical(course)
+    form = symplectic_form(problem, course.fmt)
     with np.errstate(all="ignore"):
         return [NO_FORM if np.isnan(run.march.states).all() else _form_defect(step, form, run) for run in runs]
 
 
-def _symbols(course: Course) -> tuple[list[Any], BoundSystem]:
+def has_symplectic_form(problem: Problem) -> bool:
+    """Whether momenta are declared, or velocities that are momenta or of which an energy tells these."""
+    space = problem.space
+    told = problem.positions or (problem.invariants and problem.autonomous)
+    return bool(space.momenta or (space.velocities and told))
+
+
+def symplectic_form(problem: Problem, fmt: Precision) -> Callable[[np.ndarray], np.ndarray]:
+    """The symplectic form in positions and rates at states [state, lanes]: P' W P, with P = d(q, p)/d(q, q').
+
+    It is [2 n, 2 n, lanes], n the number of positions that have a rate, in the order of ``canonical_places``.
+    """
+    count, slopes = len(problem.space.pairs), _canonical(problem, fmt)
+
+    def form(states: np.ndarray) -> np.ndarray:
+        lanes = states.shape[1]
+        plain = _canonical_form(count, lanes, fmt.type)
+        if slopes is None:
+            return plain
+        entries = slopes(
+            states, _parameters(problem, fmt, [fmt.number(Fraction(0))] * (1 + len(problem.invariants)), lanes)
+        )
+        return _congruent(entries.reshape(2 * count, 2 * count, -1), plain)
+
+    return form
+
+
+def _parameters(problem: Problem, fmt: Precision, first: Sequence[Any], lanes: int) -> np.ndarray:
+    """The parameter rows of what is compiled, the same in each lane: h and the levels first."""
+    values = [*first, *map(fmt.number, problem.parameters.values())]
+    return np.repeat(np.array(values, dtype=fmt.type)[:, None], lanes, axis=1)
+
+
+def _symbols(problem: Problem, fmt: Precision) -> tuple[list[Any], BoundSystem]:
     """The components of the state, and the equation in them; h is the first parameter."""
-    problem, fmt = course.problem, course.fmt
     kept = len(problem.invariants)
     variables = [hy.expression(name) for name in problem.state_names]
     symbols = {name: hy.par[i + 1 + kept] for i, name in enumerate(problem.parameters)}
     return variables, BoundSystem(problem, Heyoka(fmt.number), symbols, fmt, [hy.par[1 + i] for i in range(kept)])
 
 
-def _canonical_places(problem: Problem) -> list[int]:
+def canonical_places(problem: Problem) -> list[int]:
     """Where the positions that have a rate stand, and then their rates."""
     return [place for column in zip(*problem.space.pairs, strict=True) for place in column]
 
 
 def _compiled(method: Method, course: Course, iterations: int) -> Any:
     """The state after a step, then its derivatives, row by row, then the changes of the last iteration."""
-    variables, system = _symbols(course)
+    variables, system = _symbols(course.problem, course.fmt)
     step, changes = method.step(system, tuple(variables), hy.par[0], iterations)
-    places = _canonical_places(course.problem)
+    places = canonical_places(course.problem)
     entries = slopes_of([step[i] for i in places], [variables[i] for i in places])
     return _function([*step, *entries.ravel(), *changes], variables, course.fmt)
 
 
-def _canonical(course: Course) -> Any:
+def _canonical(problem: Problem, fmt: Precision) -> Any:
     """d(q, p)/d(q, q') row by row, p the energy's slopes by q'; None where the rates are momenta."""
-    problem = course.problem
     if problem.space.momenta or problem.positions:
         return None
-    variables, system = _symbols(course)
+    variables, system = _symbols(problem, fmt)
     gradient = system.gradient(tuple(variables))
     momenta = [hy.expression(0.0) + gradient[rate] for _, rate in problem.space.pairs]
-    places = _canonical_places(problem)
+    places = canonical_places(problem)
     canonical = [*(variables[i] for i in places[: len(momenta)]), *momenta]
     entries = slopes_of(canonical, [variables[i] for i in places])
-    return _function(list(entries.ravel()), variables, course.fmt)
+    return _function(list(entries.ravel()), variables, fmt)
 
 
 def _function(outputs: list[Any], variables: list[Any], fmt: Precision) -> Callable[[np.ndarray, np.ndarray], Any]:
@@ -145,8 +175,7 @@ def _form_defect(step: Any, form: Any, run: Run) -> FormDefect:
     fmt, problem = course.fmt, course.problem
     chosen = np.linspace(0, len(course.times) - 1, STATES).round().astype(int)
     states = np.stack([_rounded(course, chosen, i) for i in range(len(problem.state_names))])
-    values = [fmt.number(course.h), *initial_invariants(problem, fmt), *map(fmt.number, problem.parameters.values())]
-    parameters = np.repeat(np.array(values, dtype=fmt.type)[:, None], STATES, axis=1)
+    parameters = _parameters(problem, fmt, [fmt.number(course.h), *initial_invariants(problem, fmt)], STATES)
     near = states * fmt.number(1 + 2 * fmt.exact_epsilon)
     (defects, products), (others, _) = (_changes(step, form, course, parameters, y) for y in (states, near))
     roundings = fmt.epsilon * (1 + run.march.evaluations / course.n) * products
@@ -163,9 +192,7 @@ def _changes(
     after, entries, changes = np.split(found, [len(states), len(states) + size**2])
     if not converged(float(np.max(np.abs(changes), initial=0.0)), after, course.fmt):
         after = np.full_like(after, np.nan)
-    before, later = (_form_at(form, course, parameters, y) for y in (states, after))
-    slopes = entries.reshape(size, size, -1)
-    return symplectic_change(slopes, before, later)
+    return symplectic_change(entries.reshape(size, size, -1), form(states), form(after))
 
 
 def symplectic_change(slopes: np.ndarray, before: np.ndarray, after: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -185,7 +212,7 @@ def symplectic_change(slopes: np.ndarray, before: np.ndarray, after: np.ndarray)
     return largest.astype(np.float64), products.astype(np.float64)
 
 
-def canonical_form(count: int, lanes: int, dtype: Any = np.float64) -> np.ndarray:
+def _canonical_form(count: int, lanes: int, dtype: Any = np.float64) -> np.ndarray:
     """W of positions and momenta: ((0, 1), (-1, 0)), [2 n, 2 n, lanes]."""
     form = np.zeros((2 * count, 2 * count, lanes), dtype=dtype)
     for i in range(count):
@@ -198,16 +225,6 @@ def _congruent(slopes: np.ndarray, form: np.ndarray) -> np.ndarray:
     half = np.sum(form[:, :, None] * slopes[None], axis=1)
     found: np.ndarray = np.sum(slopes[:, :, None] * half[:, None], axis=0)
     return found
-
-
-def _form_at(form: Any, course: Course, parameters: np.ndarray, states: np.ndarray) -> np.ndarray:
-    """The symplectic form in positions and rates: P' W P, with P = d(q, p)/d(q, q')."""
-    count = len(course.problem.space.pairs)
-    plain = canonical_form(count, states.shape[1], course.fmt.type)
-    if form is None:
-        return plain
-    entries = form(states, parameters)
-    return _congruent(entries.reshape(2 * count, 2 * count, -1), plain)
 
 
 def _rounded(course: Course, chosen: np.ndarray, component: int) -> np.ndarray:
