@@ -414,7 +414,7 @@ class SeparableProblem(Problem):
     @property
     def second_order(self) -> bool:
         trial = [Fraction(3 * k + 2, 7) for k in range(self.positions)]
-        found = self.velocity(NUMPY, list(map(float, trial)), {n: float(v) for n, v in self.parameters.items()})
+        found = self.velocity(NUMPY, list(map(float, trial)), self.parameters_in(NUMPY))
         return self.autonomous and list(found) == list(map(float, trial))
 
     @classmethod
@@ -500,9 +500,10 @@ class HamiltonianProblem(Problem):
         return bool(trial) and self.autonomous and [float(v) for v in self.velocity(NUMPY, trial, c)] == trial
 
     def velocity(self, m: Arithmetic, momenta: Sequence[Any], p: dict[str, Any]) -> tuple[Any, ...]:
-        """dH/dp, at the positions of the start: of a Hamiltonian that splits it is the same everywhere."""
+        """dH/dp, at the start: of a Hamiltonian that splits it is the same everywhere."""
         size = len(self.space.positions)
-        return tuple(self._slopes(m, None, [m.number(value) for value in self.start[:size]], momenta, p)[size:])
+        start = [m.number(value) for value in self.start[:size]]
+        return tuple(self._slopes(m, m.number(Fraction(0)), start, momenta, p)[size:])
 
     def force(self, m: Arithmetic, t: Any, positions: Sequence[Any], p: dict[str, Any]) -> tuple[Any, ...]:
         """-dH/dq, at the momenta of the start."""

@@ -26,8 +26,21 @@ if TYPE_CHECKING:
 __all__ = ["NO_TIME", "BoundSystem", "FormatArithmetic", "plain_system"]
 
 
-NO_TIME = None
-"""What stands for the time in an equation that is without it: one that is not stops at it."""
+class _NoTime:
+    """What stands for the time in an equation that is without it.
+
+    Raises:
+        ValueError: it is made use of.
+    """
+
+    def _used(self, *_others: Any) -> Any:
+        raise ValueError("the equation depends on the time; a problem that declares autonomous = False is accepted.")
+
+    __add__ = __radd__ = __sub__ = __rsub__ = __mul__ = __rmul__ = __truediv__ = __rtruediv__ = __pow__ = _used
+    __neg__ = __float__ = __array__ = _used
+
+
+NO_TIME = _NoTime()
 
 
 class FormatArithmetic:

@@ -27,6 +27,7 @@ from reference.__main__ import main as reference_main
 from reference.dataset.build import build
 from reference.dataset.catalogue import plan as dataset_plan
 from reference.dataset.verify import verify
+from reference.problem import HamiltonianProblem
 
 TOYS = Path(__file__).parents[1] / "toys.py"
 FLOAT64 = precision("float64")
@@ -248,3 +249,34 @@ def test_values_at_the_command_line(capsys: pytest.CaptureFixture[str]) -> None:
     found = json.loads(capsys.readouterr().out)
     assert abs(Fraction(found["x"]) - x) < Fraction(1, 10**29)
     assert abs(Fraction(found["y"]) - y) < Fraction(1, 10**29)
+
+
+def test_an_equation_that_hides_its_time_is_refused() -> None:
+    class Hidden(Forced):
+        autonomous = True
+
+    with pytest.raises(ValueError, match="autonomous = False is accepted"):
+        compare.error_vs_n(Hidden(), ["rk4"], n=[64])
+
+
+def test_a_hamiltonian_with_the_time_in_it_splits() -> None:
+    class Driven(HamiltonianProblem):
+        """H = p^2/2 + angle^2/2 - strength cos(nu t) angle: the forced oscillator once more."""
+
+        name, rows, trial, invariants, autonomous = "driven", Forced.rows, Forced.trial, (), False
+        space = replace(Forced.space, velocities=(), momenta=("rate",))
+        parameters, start, inputs = Forced().parameters, Forced().start, Forced().inputs
+
+        def hamiltonian(self, m: Any, t: Any, q: Any, p: Any, c: Any) -> Any:
+            return p[0] * p[0] / 2 + q[0] * q[0] / 2 - c["strength"] * m.cos(c["nu"] * t) * q[0]
+
+        def neighbour(self, rounding: Any, epsilon: Any) -> Any:
+            return Forced().neighbour(rounding, epsilon)
+
+        def closed_form(self, m: Any) -> Any:
+            return Forced().closed_form(m)
+
+    assert Driven().positions == 1
+    for name in ("verlet", "rk4", "yoshida4"):
+        (mine,), (other,) = (compare.error_vs_n(one, [name], n=[64], t_end=2) for one in (Driven(), Forced()))
+        assert mine.max_error == pytest.approx(other.max_error, rel=1e-9)
