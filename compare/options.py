@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
 from compare.measure.wanted import DEFAULT_SCORES, SCORES
@@ -32,9 +33,10 @@ def families_of(words: Sequence[str]) -> tuple[Family, ...]:
         return ()
     from reference.problems.families import FAMILIES, find_family
 
-    spelled = " ".join(words).replace("--problem=", "--problem ").split()
-    names = [spelled[place + 1] for place, word in enumerate(spelled[:-1]) if word == "--problem"]
-    return (find_family(names[-1]),) if names and ":" in names[-1] else FAMILIES
+    following = [after for word, after in pairwise(words) if word == "--problem"]
+    names = [*following, *(word.partition("=")[2] for word in words if word.startswith("--problem="))]
+    own = [name for name in names if ":" in name]
+    return tuple(map(find_family, own)) or FAMILIES
 
 
 def inputs_offered(families: Sequence[Family], parser: argparse.ArgumentParser) -> None:
