@@ -9,10 +9,12 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
+from compare.march.march import fits
 from compare.march.precision import precision as find_precision
 from compare.measure.cases import case_of
+from compare.measure.growth import GROWTH_SAMPLES
 from compare.measure.order_fit import fit_order
-from compare.measure.scores import GROWTH_SAMPLES, Found, score
+from compare.measure.scores import Found, score
 from compare.measure.truth import SAMPLES, Course
 from compare.measure.wanted import DEFAULT_SCORES, EXTRAS, chosen_scores
 from compare.methods import DEFAULT, METHODS, find
@@ -192,15 +194,6 @@ def _method(one: str | Method) -> Method:
         hint = " compare.method(order=...) makes a method of a step function;" if callable(one) else ""
         raise TypeError(f"methods has {one!r};{hint} a name such as 'rk4', or a method, is accepted.")
     return one
-
-
-def fits(method: Method, problem: Problem) -> bool:
-    """Whether the problem has what the method needs: positions apart from momenta, q'' = F(q), or an invariant."""
-    if method.separable_only and not problem.positions:
-        return False
-    if method.second_order_only and not problem.second_order:
-        return False
-    return method.family != "conservative" or bool(problem.invariants)
 
 
 def _ends(t_end: Any, count: int) -> tuple[Fraction, ...]:

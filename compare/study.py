@@ -11,10 +11,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from compare.march.march import INLINE_SINE, march
+from compare.march.block_size import INLINE_SINE
+from compare.march.march import fits, march
 from compare.measure.records import Study, Trace
 from compare.measure.truth import Course
-from compare.scored import fits, score_all, some
+from compare.measure.wanted import EXTRAS
+from compare.scored import score_all, some
 from reference import __version__
 from reference.arithmetic.compiler import hy
 from reference.arithmetic.exact import as_number, exact
@@ -87,10 +89,7 @@ def study(family: Family | str, form: Sequence[str] | None = None, *, traces: bo
         order=scored.orders,
         energy_drift=scored.drifts,
         scores=scored.scores,
-        phase=scored.asked("phase"),
-        growth=scored.asked("growth"),
-        period=scored.asked("period"),
-        defects=scored.asked("defects"),
+        **{score: scored.asked(score) for score in EXTRAS},
         traces=kept,
         exact=exact_orbits,
     )

@@ -1,9 +1,7 @@
-"""One step over lanes: traced and compiled where it can be, else on arrays, else lane by lane.
+"""One step over lanes: traced and compiled where it can be, else on arrays, else lane by lane; and many such steps.
 
 A compiled step, or one on arrays, is trusted only where it agrees with plain evaluation on one state at a time: an
-``if`` on a symbol is silently true.
-
-Marches of an integrator over lanes of its own step sizes and starts, whole integrators too.
+``if`` on a symbol is silently true.  Each lane has its own step size and start, of a whole integrator too.
 """
 
 from __future__ import annotations

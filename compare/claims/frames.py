@@ -4,7 +4,7 @@ The second is the first seen from a frame that swings: with theta(t) a solution 
 s(t) = a (1 - cos(w t)), the positions q = theta + s obey q'' = F(q - s) + s'', and start where theta starts.  A stage
 that is taken at the wrong time sees the wrong s.  Momenta that are no velocities stay as they are, and q' gains s'.
 
-The right-hand side as a user's function sees it: f(y) or f(t, y), on floats, arrays of lanes, and symbols.
+A user's function sees the right-hand side as f(y) or f(t, y), on floats, arrays of lanes, and symbols.
 """
 
 from __future__ import annotations

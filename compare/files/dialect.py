@@ -1,6 +1,6 @@
-"""How a table of text is written: what separates its columns, and its decimal mark.
+"""How a table of text is written: what separates its columns, its decimal mark, and where it begins.
 
-Where a table of text begins: what comes before it, its header, what stands under that, and its first row.
+Before its first row may come comments and other lines, a header, and rows of units or of types under that.
 """
 
 from __future__ import annotations

@@ -1,8 +1,7 @@
 """Rows of written numbers against the proven state at their exact times.
 
-Slips that the first rows of a file betray: angles and times in other units, and numbers in each other's places.
-
-Angles that are wrong by whole turns, as a wrapped angle is where the motion's own goes on.
+The first rows of a file betray slips: angles and times in other units, numbers in each other's places.  Angles that are
+wrong by whole turns, as a wrapped angle is where the motion's own goes on, are counted over all rows.
 """
 
 from __future__ import annotations

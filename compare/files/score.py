@@ -1,8 +1,6 @@
-"""What ``python -m compare score`` does: a file judged a chunk at a time, in memory that does not grow with it.
+"""Numbers from any code, judged: ``compare.score`` of arrays, and ``python -m compare score`` of a file.
 
-``compare.score``: numbers from any code, judged.
-
-A submission's file, whatever its format: chunks of rows.
+A file, whatever its format, is read and judged a chunk of rows at a time, in memory that does not grow with it.
 """
 
 from __future__ import annotations

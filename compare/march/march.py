@@ -18,8 +18,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from compare.march.block_size import INLINE_SINE, Shape
-from compare.march.lanes import Lane, March, StartInvariant, grain_of, initial_invariants, sample_steps
+from compare.march.block_size import Shape
+from compare.march.lanes import Lane, March, grain_of, initial_invariants
 from compare.march.trace import carried, compile_block, entry_rows, plain_block
 
 if TYPE_CHECKING:
@@ -31,15 +31,11 @@ if TYPE_CHECKING:
     from reference.problem import Problem
 
 __all__ = [
-    "INLINE_SINE",
-    "Lane",
-    "March",
-    "StartInvariant",
     "converged",
+    "fits",
     "iterations_for",
     "march",
     "march_alone",
-    "sample_steps",
 ]
 
 CLOCKED_RUNS, BRIEF = 3, 0.02
@@ -53,6 +49,22 @@ CONVERGED = 1000
 def iterations_for(method: Method, problem: Problem, h: float, bits: int) -> int:
     """Iterations that bring the equations of an implicit step to rounding; 0 for an explicit method."""
     return method.iterations(max(h * _rate(problem), sys.float_info.min), bits)
+
+
+def lacking(method: Method, problem: Problem) -> str:
+    """What a method needs that the problem has not, in words; "" where it fits."""
+    if method.separable_only and not problem.positions:
+        return f"needs positions apart from momenta; {problem.name} is not separable"
+    if method.second_order_only and not problem.second_order:
+        return f"marches q'' = F(q), which {problem.name} is not"
+    if method.family == "conservative" and not problem.invariants:
+        return f"keeps an invariant, and {problem.name} has none"
+    return ""
+
+
+def fits(method: Method, problem: Problem) -> bool:
+    """Whether the problem has what the method needs: positions apart from momenta, q'' = F(q), or an invariant."""
+    return not lacking(method, problem)
 
 
 @lru_cache(maxsize=256)
@@ -115,10 +127,8 @@ def _sorted(method: Method, lanes: Sequence[Lane], fmt: Precision) -> dict[tuple
     """The places of the lanes that can share a block, by (equation, grain, iterations), in order of falling N."""
     groups: dict[tuple[_Equation, int, int], list[int]] = defaultdict(list)
     for i, lane in enumerate(lanes):
-        if method.separable_only and not lane.problem.positions:
-            raise ValueError(f"{method.name} needs positions apart from momenta; {lane.problem.name} is not separable.")
-        if method.family == "conservative" and not lane.problem.invariants:
-            raise ValueError(f"{method.name} keeps an invariant, and {lane.problem.name} has none.")
+        if missing := lacking(method, lane.problem):
+            raise ValueError(f"{method.name} {missing}.")
         iterations = iterations_for(method, lane.problem, float(lane.h), fmt.bits)
         grain = grain_of(lane.n)
         ends_of_blocks = math.gcd(*lane.samples) % grain == 0

@@ -1,10 +1,10 @@
 """A method and a problem, traced once with symbols and compiled by heyoka: a block of steps over lanes.
 
 Every lane is one march of its own, with its own start, step size and parameters.  A block takes some steps; it gives
-the state after every step, or after the last one with the running maxima of the energy error.  What a method remembers
-of earlier steps stands behind the state and is marched with it.
+the state after every step, or after the last one with the running maxima of the changes of what is conserved.  What a
+method remembers of earlier steps stands behind the state and is marched with it.
 
-The derivative of a step by the state it starts from, exact but for rounding: its expressions, differentiated.
+A step's expressions, differentiated, give its derivative by the state it starts from, exact but for rounding.
 """
 
 from __future__ import annotations

@@ -12,30 +12,25 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from compare.march.march import march
-from compare.measure.order_fit import fit_order, slope_with_interval, student_95
+from compare.measure.order_fit import slope_with_interval
 from compare.measure.records import Cell, Drift
 from compare.measure.rounding import roundings_of
-from compare.measure.truth import SAMPLES, Course
+from compare.measure.truth import Course
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
-    from compare.march.march import March
+    from compare.march.lanes import March
     from compare.march.precision import Precision
     from compare.measure.rounding import Rounding
     from compare.methods.kinds.one_step import Method
     from reference.problem import Problem
 
 __all__ = [
-    "SAMPLES",
-    "Course",
     "drifts",
-    "fit_order",
     "score_courses",
     "score_errors",
     "score_method",
-    "slope_with_interval",
-    "student_95",
 ]
 
 

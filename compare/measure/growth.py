@@ -1,14 +1,12 @@
-"""How the errors of a march grow with time: bounded, as a root of t, as t, ...
-
-Where the error is rounding it is a random walk, of which one march says little: then the mean is over STARTS marches,
-each from a start near the last one's.  By Brouwer's law (D. Brouwer, Astron. J. 46, 1937, 149) random roundings let the
-energy walk as sqrt(t), and the phase, which sums it up, as t^(3/2).
-
-The exponent of an error that grows as a power of time, read off its samples.
+"""How the errors of a march grow with time: as a power of it, whose exponent is read off the samples.
 
 Time is cut into windows, each twice as long as the one before it, and the mean square of the error is taken in each:
 half the slope of its logarithm against that of time is the exponent.  The first windows may not know yet how it will go
 on, so that the longest run of last windows is taken whose slope has the least interval.
+
+Where the error is rounding it is a random walk, of which one march says little: then the mean is over STARTS marches,
+each from a start near the last one's.  By Brouwer's law (D. Brouwer, Astron. J. 46, 1937, 149) random roundings let the
+energy walk as sqrt(t), and the phase, which sums it up, as t^(3/2).
 """
 
 from __future__ import annotations

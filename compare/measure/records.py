@@ -1,6 +1,6 @@
 """What a study found: frozen records, which tables and plots show and nothing else does.
 
-A problem of a study in a few words, as its records carry it.
+Each record carries its case: the problem in a few words.
 """
 
 from __future__ import annotations

@@ -20,7 +20,7 @@ from reference.orbits import NOWHERE, apart
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from compare.march.march import March
+    from compare.march.lanes import March
     from compare.measure.orbital import OrbitalConditioning
     from compare.measure.records import Cell
     from compare.measure.rounding import Rounding

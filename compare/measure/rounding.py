@@ -25,7 +25,7 @@ from compare.methods.kinds.compensated import Compensated
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
-    from compare.march.march import March
+    from compare.march.lanes import March
     from compare.march.precision import Precision
     from compare.measure.truth import Course
     from compare.methods.kinds.protocol import Method

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from compare.measure.defects import defects
 from compare.measure.errors import drifts, score_courses
-from compare.measure.growth import GROWTH_SAMPLES, growths
+from compare.measure.growth import growths
 from compare.measure.period import own_periods
 from compare.measure.phase import phases
 from compare.measure.result import Run
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from compare.measure.truth import Course
     from compare.methods.kinds.one_step import Method
 
-__all__ = ["GROWTH_SAMPLES", "Found", "score"]
+__all__ = ["Found", "score"]
 
 Found = dict[str, list[Any]]
 """Records by the name of their table."""

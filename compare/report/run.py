@@ -15,14 +15,15 @@ from fractions import Fraction
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from compare.march.march import march_alone
+from compare.march.march import fits, march_alone
 from compare.march.precision import precision
 from compare.march.trace import TraceError
-from compare.measure.errors import SAMPLES, Course, score_errors
+from compare.measure.errors import score_errors
+from compare.measure.truth import SAMPLES, Course
 from compare.methods import find
 from compare.report.problems import reported, reported_by
 from compare.report.records import Report, WorkPoint
-from compare.scored import fits, named, some
+from compare.scored import named, some
 from compare.show.output import folder
 from compare.solvers.catalogue import SOLVERS, select
 from compare.solvers.score import score_solver

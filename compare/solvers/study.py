@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from compare.measure.cases import case_of
-from compare.measure.errors import SAMPLES
+from compare.measure.truth import SAMPLES
 from compare.scored import some
 from compare.solvers.catalogue import SOLVERS, select
 from compare.solvers.events import event_of

@@ -18,7 +18,7 @@ import numpy as np
 
 from compare.march.march import march
 from compare.march.precision import precision
-from compare.measure.errors import Course
+from compare.measure.truth import Course
 from compare.methods import find
 from reference import Pendulum
 

@@ -12,9 +12,10 @@ import pytest
 from compare.march.march import march
 from compare.march.precision import precision
 from compare.measure.errors import score_courses
+from compare.measure.growth import GROWTH_SAMPLES
 from compare.measure.result import Run
 from compare.measure.rounding import roundings_of
-from compare.measure.scores import GROWTH_SAMPLES, score
+from compare.measure.scores import score
 from compare.measure.truth import Course
 from compare.methods import find
 from compare.show.digits import DOUBT, ROUNDING, decided, scientific, starred
@@ -137,7 +138,7 @@ def test_a_lost_march_of_few_steps_takes_no_digits_from_the_finer_ones() -> None
     assert cells[0].max_error > 1
     assert [cell.floor for cell in cells] == [False, False, False]
     assert DOUBT in scientific(cells[0].max_error, cells[0].rounding)
-    assert bounds[2].place < 1e-6 * cells[2].max_error
+    assert bounds[2].position < 1e-6 * cells[2].max_error
 
 
 def test_an_amplitude_is_rounding_also_where_the_computed_energy_did_not_change() -> None:

@@ -12,7 +12,8 @@ import pytest
 
 import compare
 from compare.march.equation import plain_system
-from compare.march.march import Lane, march, sample_steps
+from compare.march.lanes import Lane, sample_steps
+from compare.march.march import march
 from compare.march.precision import FORMATS, Precision, precision
 from compare.march.trace import compile_block, entry_rows, plain_block
 from compare.methods import METHODS, find

@@ -10,9 +10,12 @@ import numpy as np
 import pytest
 
 from compare.march.equation import plain_system
-from compare.march.march import Lane, StartInvariant, march, sample_steps
+from compare.march.lanes import Lane, StartInvariant, sample_steps
+from compare.march.march import march
 from compare.march.precision import FORMATS, Precision, precision
-from compare.measure.errors import Course, fit_order, score_method
+from compare.measure.errors import score_method
+from compare.measure.order_fit import fit_order
+from compare.measure.truth import Course
 from compare.methods import find
 from compare.methods.conservative import AVF, CONSERVATIVE, GONZALEZ, PROJECTED_RK4
 from reference import Pendulum

@@ -11,7 +11,8 @@ import numpy as np
 import pytest
 
 from compare.march.equation import BoundSystem, plain_system
-from compare.march.march import Lane, StartInvariant, iterations_for, march, sample_steps
+from compare.march.lanes import Lane, StartInvariant, sample_steps
+from compare.march.march import iterations_for, march
 from compare.march.precision import precision
 from compare.march.trace import compile_block, plain_block
 from compare.methods import METHODS, find

@@ -9,7 +9,9 @@ from functools import cache
 import pytest
 
 from compare.march.precision import Precision, precision
-from compare.measure.errors import Course, fit_order, score_method
+from compare.measure.errors import score_method
+from compare.measure.order_fit import fit_order
+from compare.measure.truth import Course
 from compare.methods import DEFAULT, METHODS, _plain, find
 from compare.methods.explicit import RK4
 from compare.methods.kinds.one_step import Embedded, Method, Splitting, Tableau

@@ -9,9 +9,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 import pytest
 
-from compare.march.march import Lane, march, sample_steps
+from compare.march.lanes import Lane, sample_steps
+from compare.march.march import march
 from compare.march.precision import precision
-from compare.measure.errors import Course, fit_order, score_method
+from compare.measure.errors import score_method
+from compare.measure.order_fit import fit_order
+from compare.measure.truth import Course
 from compare.methods import find
 from compare.methods.explicit import EULER, RK4
 from compare.methods.kinds.multistep import LinearMultistep, PredictorCorrector

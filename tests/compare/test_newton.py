@@ -9,7 +9,8 @@ import numpy as np
 import pytest
 
 from compare.march.equation import plain_system
-from compare.march.march import Lane, march, sample_steps
+from compare.march.lanes import Lane, sample_steps
+from compare.march.march import march
 from compare.march.precision import Precision, precision
 from compare.methods import METHODS, find
 from compare.methods.kinds.newton import Elimination, iterations

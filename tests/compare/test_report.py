@@ -16,7 +16,7 @@ import pytest
 from compare.__main__ import main
 from compare.march.march import march, march_alone
 from compare.march.precision import precision
-from compare.measure.errors import Course
+from compare.measure.truth import Course
 from compare.methods import METHODS, find
 from compare.report import run as running
 from compare.report import table

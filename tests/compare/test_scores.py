@@ -12,7 +12,9 @@ from made_study import made_case, made_cell
 
 from compare.march.march import march
 from compare.march.precision import precision
-from compare.measure.errors import Course, fit_order, score_errors, score_method, slope_with_interval, student_95
+from compare.measure.errors import score_errors, score_method
+from compare.measure.order_fit import fit_order, slope_with_interval, student_95
+from compare.measure.truth import Course
 from compare.methods import find
 from reference import Pendulum
 from reference.arithmetic.precision import mp

@@ -1,8 +1,7 @@
-"""One-step methods: frozen tables, and the step that follows from each in any arithmetic.
+"""One-step methods: frozen tables, the step that follows from each in any arithmetic, and what else follows.
 
-What follows from a Runge-Kutta matrix and its weights: symplectic, symmetric, A-stable and L-stable methods.
-
-See E. Hairer, C. Lubich and G. Wanner, Geometric Numerical Integration (2006), sections V.2 and VI.4, and E. Hairer and
+Whether a Runge-Kutta method is symplectic, symmetric, A-stable or L-stable is decided by its matrix and its weights:
+E. Hairer, C. Lubich and G. Wanner, Geometric Numerical Integration (2006), sections V.2 and VI.4, and E. Hairer and
 G. Wanner, Solving Ordinary Differential Equations II (1996), section IV.3.
 """
 
