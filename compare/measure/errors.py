@@ -15,7 +15,6 @@ from compare.march.march import march
 from compare.measure.order_fit import slope_with_interval
 from compare.measure.records import Cell, Drift
 from compare.measure.rounding import roundings_of
-from compare.measure.truth import Course
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -23,6 +22,7 @@ if TYPE_CHECKING:
     from compare.march.lanes import March
     from compare.march.precision import Precision
     from compare.measure.rounding import Rounding
+    from compare.measure.truth import Course
     from compare.methods.kinds.one_step import Method
     from reference.problem import Problem
 
