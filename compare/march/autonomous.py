@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from reference.arithmetic.exact import exact_array
+from reference.arithmetic.limbs import exact_limbs
 from reference.declaration import Quantity
 from reference.problem import Problem
 
@@ -166,15 +167,6 @@ class _WithTime(Problem):
         """The proven state, and the time itself to as many limbs."""
         found = np.asarray(self.inner.state(t, limbs=limbs))
         times, shape = exact_array(t, "t")
-        parts = np.array([_limbs_of(time, limbs) for time in times]).reshape(*shape, limbs)
+        parts = np.array([exact_limbs(time, limbs) for time in times]).reshape(*shape, limbs)
         own = parts[..., 0] if limbs == 1 else parts
         return np.insert(found, self._place, own, axis=len(shape))
-
-
-def _limbs_of(value: Fraction, count: int) -> list[float]:
-    """A rational as a sum of doubles, each the nearest to what the ones before leave."""
-    found = []
-    for _ in range(count):
-        found.append(float(value))
-        value -= Fraction(found[-1])
-    return found
