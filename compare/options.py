@@ -10,6 +10,7 @@ from compare.measure.wanted import DEFAULT_SCORES, SCORES
 from compare.show.render import FORMATS
 from reference.command.terminal import one_of
 from reference.command.values import as_written, number, pair, several, text, whole
+from reference.family import LEAST_N
 from reference.names import unknown
 
 if TYPE_CHECKING:
@@ -20,7 +21,6 @@ if TYPE_CHECKING:
 
 __all__ = ["FamilyOptions", "families_of", "inputs_given", "inputs_offered"]
 
-LEAST_N = 128
 SEVERAL: dict[str, Any] = {"action": "append", "metavar": "A,B"}
 
 

@@ -22,6 +22,7 @@ from compare.methods.kinds.compensated import compensate
 from reference.arithmetic.exact import as_number, exact
 from reference.arithmetic.underflow import require_gradual
 from reference.command.executors import results
+from reference.consistency import consistent
 from reference.problem import Problem
 
 if TYPE_CHECKING:
@@ -137,8 +138,10 @@ def score_all(
         UnderflowModeError: the processor takes subnormal numbers for zero.
     """
     require_gradual("a comparison")
-    if not all(isinstance(problem, Problem) for problem in problems):
-        raise TypeError(f"problems holds a {type(problems[0]).__name__}; problems such as Pendulum(1.0) are accepted.")
+    for problem in problems:
+        if not isinstance(problem, Problem):
+            raise TypeError(f"problems holds a {type(problem).__name__}; problems such as Pendulum(1.0) are accepted.")
+        consistent(problem)
     fmt, wanted = find_precision(precision), chosen_scores(some(scores, "scores"))
     chosen = named(methods)
     if fmt.name != "float64" and (own := [method.name for method in chosen if method.family == "own"]):
@@ -188,12 +191,11 @@ def named(methods: Sequence[str | Method] | None) -> tuple[Method, ...]:
 
 
 def _method(one: str | Method) -> Method:
-    if isinstance(one, str):
-        return find(one)
-    if not callable(getattr(one, "step", None)):
-        hint = " compare.method(order=...) makes a method of a step function;" if callable(one) else ""
-        raise TypeError(f"methods has {one!r};{hint} a name such as 'rk4', or a method, is accepted.")
-    return one
+    if callable(getattr(one, "step", None)):
+        return one  # type: ignore[return-value]
+    if callable(one):
+        raise TypeError(f"methods has {one!r}; compare.method(order=...) makes a method of a step function.")
+    return find(str(one))
 
 
 def _ends(t_end: Any, count: int) -> tuple[Fraction, ...]:

@@ -20,7 +20,7 @@ from compare.scored import score_all, some
 from reference import __version__
 from reference.arithmetic.compiler import hy
 from reference.arithmetic.exact import as_number, exact
-from reference.family import Family
+from reference.family import LEAST_N, Family
 from reference.names import unknown
 from reference.problems.families import find_family
 from reference.routes.agreement import ROUTES
@@ -36,7 +36,6 @@ if TYPE_CHECKING:
 
 __all__ = ["TRACE_N", "family_of", "inputs_shown", "problems_of", "study"]
 
-LEAST_N = 128
 TRACE_N = 256
 """Of the numbers of steps that are asked for, trajectories have that nearest to this one."""
 
@@ -120,13 +119,23 @@ def problems_of(family: Family, inputs: dict[str, Any]) -> list[Problem]:
         if name not in accepted:
             raise ValueError(unknown("input", name, accepted))
     values = some(inputs.get(comparison.varied, comparison.values), comparison.varied)
-    others = {name: value for name, value in inputs.items() if name != comparison.varied and value is not None}
+    others = {name: _default(family.input(name)) for name in comparison.inputs}
+    others |= {name: value for name, value in inputs.items() if name != comparison.varied}
+    others = {name: value for name, value in others.items() if value is not None}
     problems = [family.problem(**{comparison.varied: value}, **others) for value in values]
     told = [tuple(value for value, _ in problem.inputs.values()) for problem in problems]
     if len(set(told)) < len(told):
         precision = "" if family.input(comparison.varied).kind == "text" else ", to a double's precision"
         raise ValueError(f"{comparison.varied} has one {comparison.what} twice{precision}; each is accepted once.")
     return problems
+
+
+def _default(wanted: Input) -> Any:
+    """The default of an input as a value; None where it has none."""
+    if wanted.default is None or wanted.kind == "text":
+        return wanted.default
+    numbers = tuple(map(float, wanted.default.split(",")))
+    return numbers if wanted.kind == "pair" else numbers[0]
 
 
 def _forms(family: Family, wanted: Sequence[str] | None) -> dict[str, Marched]:
@@ -157,7 +166,7 @@ def inputs_shown(family: Family, inputs: dict[str, Any], problems: Sequence[Prob
     found: dict[str, Any] = {comparison.varied: varied}
     for name in comparison.inputs:
         other = family.input(name)
-        value = inputs.get(name, None if other.default is None else float(other.default))
+        value = inputs.get(name, _default(other))
         if value is not None:
             found[name] = _shown(other, value)
     return found

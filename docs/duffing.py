@@ -10,12 +10,25 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any, ClassVar
 
-from reference import Family, HamiltonianProblem, StateSpace
-from reference.arithmetic.exact import exact
-from reference.declaration import ENERGY_ABOVE_REST, ClosedForm, Invariant, Quantity, Row, Trial
-from reference.family import Comparison, Input, Reported
-from reference.routes.taylor import Along, Period
-from reference.row_domains import ONCE, TIME
+from reference import (
+    ENERGY_ABOVE_REST,
+    ONCE,
+    TIME,
+    Along,
+    ClosedForm,
+    Comparison,
+    Family,
+    HamiltonianProblem,
+    Input,
+    Invariant,
+    Period,
+    Quantity,
+    Reported,
+    Row,
+    StateSpace,
+    Trial,
+    exact,
+)
 
 STATE = Row(
     "state",

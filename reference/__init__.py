@@ -11,10 +11,12 @@ if TYPE_CHECKING:
     import os
     from collections.abc import Sequence
 
+    from reference.arithmetic.exact import exact
     from reference.certified import Certified
     from reference.dataset.reader import Dataset
-    from reference.declaration import StateSpace
-    from reference.family import Family
+    from reference.declaration import ENERGY_ABOVE_REST, ClosedForm, Form, Invariant, Quantity, Row, StateSpace, Trial
+    from reference.family import Comparison, Family, Input, Reported
+    from reference.layout import Coordinate, Group, Layout
     from reference.problem import HamiltonianProblem, Problem, SeparableProblem
     from reference.problems.cycloid.arc import CycloidArc
     from reference.problems.cycloid.problem import Cycloid
@@ -24,24 +26,45 @@ if TYPE_CHECKING:
     from reference.problems.pendulum.problem import Pendulum
     from reference.problems.polar.problem import PolarBrachistochrone
     from reference.problems.tunnel.problem import Tunnel
+    from reference.routes.taylor import Along, Crossings, Period
+    from reference.row_domains import ONCE, TIME
 
 __all__ = [
+    "ENERGY_ABOVE_REST",
+    "ONCE",
+    "TIME",
+    "Along",
     "Certified",
+    "ClosedForm",
+    "Comparison",
+    "Coordinate",
+    "Crossings",
     "Cycloid",
     "CycloidArc",
     "CycloidalPendulum",
     "Descent",
     "Family",
+    "Form",
+    "Group",
     "HamiltonianProblem",
+    "Input",
+    "Invariant",
+    "Layout",
     "LinearPendulum",
     "Pendulum",
+    "Period",
     "PolarBrachistochrone",
     "Problem",
+    "Quantity",
+    "Reported",
+    "Row",
     "SeparableProblem",
     "StateSpace",
     "Tautochrone",
+    "Trial",
     "Tunnel",
     "__version__",
+    "exact",
     "load",
 ]
 
@@ -61,6 +84,25 @@ _HOMES = {
     "StateSpace": "reference.declaration",
     "Tautochrone": "reference.problems.cycloid.tautochrone",
     "Tunnel": "reference.problems.tunnel.problem",
+    "Along": "reference.routes.taylor",
+    "ClosedForm": "reference.declaration",
+    "Comparison": "reference.family",
+    "Coordinate": "reference.layout",
+    "Crossings": "reference.routes.taylor",
+    "ENERGY_ABOVE_REST": "reference.declaration",
+    "Form": "reference.declaration",
+    "Group": "reference.layout",
+    "Input": "reference.family",
+    "Invariant": "reference.declaration",
+    "Layout": "reference.layout",
+    "ONCE": "reference.row_domains",
+    "Period": "reference.routes.taylor",
+    "Quantity": "reference.declaration",
+    "Reported": "reference.family",
+    "Row": "reference.declaration",
+    "TIME": "reference.row_domains",
+    "Trial": "reference.declaration",
+    "exact": "reference.arithmetic.exact",
 }
 
 

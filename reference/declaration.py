@@ -101,6 +101,7 @@ class StateSpace:
     order: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
+        self._hold_kinds()
         declared = (*self.positions, *self.rates, *(() if self.along is None else (self.along,)))
         if not self.positions:
             raise ValueError("positions is empty; a state has at least one.")
@@ -113,6 +114,26 @@ class StateSpace:
         for name in (*self.angles, *(self.odd or ())):
             if name not in declared:
                 raise ValueError(f"{name} is no component of the state; {', '.join(declared)} are.")
+        for name in self.angles:
+            if name not in self.positions:
+                raise ValueError(f"the angle {name} is no position; {', '.join(self.positions)} are.")
+
+    def _hold_kinds(self) -> None:
+        """Refuse what is of another kind than it is declared to be.
+
+        Raises:
+            TypeError, ValueError: something is.
+        """
+        for name in ("positions", "velocities", "momenta", "angles", "order", *(() if self.odd is None else ("odd",))):
+            value = getattr(self, name)
+            if not isinstance(value, tuple) or not all(isinstance(one, str) for one in value):
+                raise TypeError(f"{name} is {value!r}; a tuple of names is accepted.")
+            if len(set(value)) < len(value):
+                raise ValueError(f"{name} is {value!r}; each name is accepted once.")
+        if self.scale not in {"units", "largest"}:
+            raise ValueError(f"scale is {self.scale!r}; 'units' or 'largest' is accepted.")
+        if not isinstance(self.independent, str):
+            raise TypeError(f"independent is {self.independent!r}; units such as 's', or '', are accepted.")
 
     @property
     def components(self) -> tuple[str, ...]:
@@ -166,6 +187,12 @@ class Invariant:
     drift: tuple[str, str]
     scale: Literal["start", "kinetic"]
     value: str = "invariant"
+
+    def __post_init__(self) -> None:
+        if self.scale not in {"start", "kinetic"}:
+            raise ValueError(f"scale of {self.name} is {self.scale!r}; 'start' or 'kinetic' is accepted.")
+        if not isinstance(self.drift, tuple) or len(self.drift) != 2:
+            raise TypeError(f"drift of {self.name} is {self.drift!r}; a title and a formula are accepted.")
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -19,7 +19,10 @@ if TYPE_CHECKING:
     from reference.layout import Group, Layout
     from reference.problem import Problem
 
-__all__ = ["Comparison", "End", "Family", "Input", "Marched", "Reported", "no_groups", "positive_end"]
+LEAST_N = 128
+"""The least of the numbers of steps where none is given."""
+
+__all__ = ["LEAST_N", "Comparison", "End", "Family", "Input", "Marched", "Reported", "no_groups", "positive_end"]
 
 
 @dataclass(frozen=True)
@@ -200,6 +203,7 @@ class Family:
     full: Callable[[], tuple[Group, ...]] = no_groups
 
     def __post_init__(self) -> None:
+        self._hold_comparison()
         names = [asked.name for asked in self.inputs]
         each_once(f"the family {short(self.name)}", names)
         for name in (self.comparison.varied, *self.comparison.inputs):
@@ -209,6 +213,30 @@ class Family:
             if not (layout.statement and layout.difficulty):
                 lacking = "difficulty" if layout.statement else "statement"
                 raise ValueError(f"the group {layout.path} of {short(self.name)} does not declare its {lacking}.")
+
+    def _hold_comparison(self) -> None:
+        """Refuse what a command could make nothing of.
+
+        Raises:
+            TypeError, ValueError: something is of another kind, or empty.
+        """
+        if not callable(self.problem):
+            raise TypeError(f"problem of {self.name} is {self.problem!r}; what makes a problem of inputs is accepted.")
+        comparison = self.comparison
+        for wanted in self.inputs:
+            if wanted.over and wanted.name in {comparison.varied, *comparison.inputs}:
+                raise ValueError(f"{wanted.name} of {self.name} is the argument of a row; an input is accepted.")
+        for name, value in (
+            ("values", comparison.values),
+            ("forms", comparison.forms),
+            ("inputs", self.inputs),
+            ("rows", self.rows),
+            *(("amplitudes", one.amplitudes) for one in self.reported),
+        ):
+            if not isinstance(value, tuple) or not value:
+                raise TypeError(f"{name} of {self.name} is {value!r}; a tuple with something in it is accepted.")
+        if comparison.largest < LEAST_N:
+            raise ValueError(f"largest of {self.name} is {comparison.largest}; {LEAST_N} or more is accepted.")
 
     def input(self, name: str) -> Input:
         """The input of this name."""

@@ -58,15 +58,23 @@ def _file(path: Path) -> ModuleType:
     if spec is None or spec.loader is None:
         raise ImportError(f"'{path}' is no Python file.")
     known = sys.modules.get(spec.name)
-    if known is not None and Path(getattr(known, "__file__", None) or "").resolve() != path.resolve():
+    if known is not None and Path(getattr(known, "__file__", None) or "").resolve() == path.resolve():
+        return known
+    if known is not None or _elsewhere(spec.name, path):
         raise ImportError(
-            f"'{path}' has the name of the module {spec.name}, which is in use; another name is accepted."
+            f"'{path}' has the name of the module {spec.name}, which is another; another name is accepted."
         )
     module = importlib.util.module_from_spec(spec)
     sys.modules[spec.name] = module  # where its classes look for themselves
     with _from_here(path.resolve().parent), _excuses(str(path)):
         spec.loader.exec_module(module)
     return module
+
+
+def _elsewhere(name: str, path: Path) -> bool:
+    """Whether a module of this name would be found that is not the file, such as one of Python's own."""
+    found = importlib.util.find_spec(name)
+    return found is not None and (found.origin is None or Path(found.origin).resolve() != path.resolve())
 
 
 @contextmanager

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, TypeVar
 from reference.arithmetic.dual import Dual, DualArithmetic
 from reference.arithmetic.exact import exact_array, positive
 from reference.arithmetic.limbs import MAX_BITS, MAX_LIMBS, to_limbs
-from reference.arithmetic.namespaces import MPMATH, NUMPY
+from reference.arithmetic.namespaces import MPMATH, NUMPY, Heyoka
 from reference.arithmetic.precision import mp
 from reference.certified import Certified
 from reference.names import unknown
@@ -30,16 +30,33 @@ if TYPE_CHECKING:
     from reference.row_domains import Domain
     from reference.state_bounds import StateBounds
 
-__all__ = ["APART", "HamiltonianProblem", "Problem", "SeparableProblem", "UndeclaredError"]
+__all__ = ["APART", "NO_TIME", "HamiltonianProblem", "Problem", "SeparableProblem", "UndeclaredError"]
 
 TAYLOR_BITS = 1024
 """The Taylor route serves what needs at most this working precision."""
 APART = Fraction(1, 1 << 36)
 """By such a part a neighbour begins elsewhere: far enough for other roundings, too near for other truncation errors."""
 SEEN, STATES = 10, 16
-"""Of a motion without a period so many units of time, and so many states of a motion, are looked at."""
+"""Of a motion without a period so many turns or e-foldings of its start, and so many states, are looked at."""
 ROUTE_BITS = 8192
 """No route but the enclosure serves what needs more working precision than this."""
+
+
+class _NoTime:
+    """What stands for the time in an equation that is without it.
+
+    Raises:
+        ValueError: it is made use of.
+    """
+
+    def _used(self, *_others: Any) -> Any:
+        raise ValueError("the equation depends on the time; a problem that declares autonomous = False is accepted.")
+
+    __add__ = __radd__ = __sub__ = __rsub__ = __mul__ = __rmul__ = __truediv__ = __rtruediv__ = __pow__ = _used
+    __neg__ = __float__ = __array__ = _used
+
+
+NO_TIME = _NoTime()
 
 
 class UndeclaredError(NotImplementedError, AttributeError):
@@ -181,10 +198,23 @@ class Problem:
         """The problem as it was asked for: another one may stand for it where it is marched."""
         return self
 
-    @property
+    @cached_property
     def structure(self) -> Any:
-        """What problems share whose equations differ in parameters alone."""
-        return type(self)
+        """What problems share whose equations differ in parameters alone: the equations and invariants in symbols.
+
+        A number that does not come of the parameters is a symbol of its own.
+        """
+        from reference.arithmetic.compiler import hy
+
+        def constant(value: Any) -> Any:
+            return hy.expression(f"constant {Fraction(value)}" if isinstance(value, (int, Fraction)) else str(value))
+
+        m: Any = Heyoka(constant)
+        y = [hy.expression(name) for name in self.state_names]
+        p = {name: hy.par[i] for i, name in enumerate(self.parameters)}
+        time: Any = NO_TIME if self.autonomous else hy.time
+        found = [*self.derivative(m, time, y, p), *(getattr(self, one.value)(m, y, p) for one in self.invariants)]
+        return type(self), tuple(self.parameters), tuple(str(hy.expression(0.0) + value) for value in found)
 
     def cycle(self) -> float:
         """The period of the motion in its own unit of time; NaN where it has none."""
@@ -198,6 +228,12 @@ class Problem:
     def lacks_of_orbits(self) -> str:
         """What of phase and amplitude the exact motion lacks, in a sentence; "" where it has both."""
         return f"Phase and amplitude are not defined for the problem {self.name}."
+
+    @property
+    def has_momenta(self) -> bool:
+        """Whether momenta are known: as components, as velocities themselves, or as an energy's slopes by them."""
+        told = self.positions or (self.invariants and self.autonomous)
+        return bool(self.space.momenta or (self.space.velocities and told))
 
     def state_bounds(self) -> StateBounds | None:
         """What bounds many of its states in doubles, to spare their proofs; None where nothing does."""
@@ -223,36 +259,37 @@ class Problem:
         """
         from reference.arithmetic.arrays import np
 
-        period = self.cycle()
-        end = Fraction(period) if math.isfinite(period) else Fraction(SEEN)
-        times = [end * Fraction(k, STATES) for k in range(STATES + 1)]
-        states = [list(map(float, y)) for y in self.state(times)]
         arithmetic: Any = NUMPY
         duals: Any = DualArithmetic(arithmetic, len(self.state_names))
         p = self.parameters_in(NUMPY)
-        found = [0.0]
-        for t, y in zip(times, states, strict=True):
+
+        def largest(t: float, y: Sequence[float]) -> float:
             variables = [duals.variable(value, i) for i, value in enumerate(y)]
-            rates = self.derivative(duals, float(t), variables, p)
+            rates = self.derivative(duals, t, variables, p)
             slopes = [rate.slopes if isinstance(rate, Dual) else (0.0,) * len(y) for rate in rates]
-            found += np.abs(np.linalg.eigvals(np.array(slopes, dtype=float))).tolist()
-        return max(found)
+            return float(np.max(np.abs(np.linalg.eigvals(np.array(slopes, dtype=float)))))
+
+        at_start, period = largest(0.0, self.start_in(NUMPY)), self.cycle()
+        end = Fraction(period if math.isfinite(period) else SEEN / at_start if at_start > 0 else SEEN)
+        times = [end * Fraction(k, STATES) for k in range(1, STATES + 1)]
+        return max(at_start, *(largest(float(t), y) for t, y in zip(times, self.state(times).tolist(), strict=True)))
 
     def neighbour(self, rounding: Callable[[Fraction], Fraction], epsilon: Fraction) -> Problem:
         """The same problem from a start close by, but by many of a format's roundings.
 
         ``rounding`` gives the format's nearest number, ``epsilon`` its relative spacing.  Of itself it is the problem
-        whose first input that is a field of it, and not zero, is smaller by 2^-36 of itself, or by 16 roundings.
+        whose first number that is a field of it and not zero, inputs first, is smaller by 2^-36 of itself, or by 16
+        roundings.
 
         Raises:
-            ValueError: no input is a field that may be moved.
+            ValueError: no field may be moved.
         """
         given: dict[str, Any] = {one.name: getattr(self, one.name) for one in fields(self) if one.init}
-        for name in self.inputs:
+        for name in (*self.inputs, *given):
             if isinstance(given.get(name), Fraction) and given[name]:
                 given[name] = rounding(given[name] * (1 - max(APART, 16 * epsilon)))
                 return type(self)(**given)
-        raise ValueError(f"{self!r} has no input to be moved; a problem that declares its neighbour is accepted.")
+        raise ValueError(f"{self!r} has no number to be moved; a problem that declares its neighbour is accepted.")
 
     @declared
     def closed_form(self, m: Any) -> ClosedForm:
@@ -417,23 +454,20 @@ class SeparableProblem(Problem):
         found = self.velocity(NUMPY, list(map(float, trial)), self.parameters_in(NUMPY))
         return self.autonomous and list(found) == list(map(float, trial))
 
-    @classmethod
     @declared
-    def velocity(cls, m: Arithmetic, momenta: Sequence[Any], p: dict[str, Any]) -> tuple[Any, ...]:
+    def velocity(self, m: Arithmetic, momenta: Sequence[Any], p: dict[str, Any]) -> tuple[Any, ...]:
         """q' as a function of the momenta and the parameters."""
         raise NotImplementedError
 
-    @classmethod
     @declared
-    def force(cls, m: Arithmetic, t: Any, positions: Sequence[Any], p: dict[str, Any]) -> tuple[Any, ...]:
+    def force(self, m: Arithmetic, t: Any, positions: Sequence[Any], p: dict[str, Any]) -> tuple[Any, ...]:
         """p' as a function of the time, the positions and the parameters."""
         raise NotImplementedError
 
-    @classmethod
-    def derivative(cls, m: Arithmetic, t: Any, y: Sequence[Any], p: dict[str, Any]) -> tuple[Any, ...]:
+    def derivative(self, m: Arithmetic, t: Any, y: Sequence[Any], p: dict[str, Any]) -> tuple[Any, ...]:
         """(q, p)' = (v(p), F(t, q))."""
-        count = len(cls.space.positions)
-        return *cls.velocity(m, y[count:], p), *cls.force(m, t, y[:count], p)
+        count = len(self.space.positions)
+        return *self.velocity(m, y[count:], p), *self.force(m, t, y[:count], p)
 
 
 @dataclass(frozen=True)
@@ -466,13 +500,13 @@ class HamiltonianProblem(Problem):
     def invariant(self, m: Arithmetic, y: Sequence[Any], p: dict[str, Any]) -> Any:
         """The value of H, which is conserved where it is without the time."""
         q, momenta = ([y[i] for i in self.space.places(names)] for names in (self.space.positions, self.space.momenta))
-        return self.hamiltonian(m, None, q, momenta, p)
+        return self.hamiltonian(m, NO_TIME, q, momenta, p)
 
     def kinetic(self, m: Arithmetic, y: Sequence[Any], p: dict[str, Any]) -> Any:
         """What the momenta make of H: H(q, p) - H(q, 0)."""
         q, momenta = ([y[i] for i in self.space.places(names)] for names in (self.space.positions, self.space.momenta))
         still = [m.number(Fraction(0))] * len(momenta)
-        return self.hamiltonian(m, None, q, momenta, p) - self.hamiltonian(m, None, q, still, p)
+        return self.hamiltonian(m, NO_TIME, q, momenta, p) - self.hamiltonian(m, NO_TIME, q, still, p)
 
     @property
     def positions(self) -> int:
@@ -480,18 +514,24 @@ class HamiltonianProblem(Problem):
 
     @cached_property
     def _splits(self) -> bool:
-        """Whether dH/dq is the same at other momenta, and dH/dp at other positions, and positions stand first."""
+        """Whether dH/dq is the same at other momenta, dH/dp at other positions and times, and positions stand first."""
         size = len(self.space.positions)
         if self.space.components != (*self.space.positions, *self.space.momenta):
             return False
-        c = self.parameters_in(NUMPY)
+        c, (one, other) = self.parameters_in(NUMPY), self._generic_states()
+        here = self._slopes(NUMPY, EARLY, one[:size], one[size:], c)
+        other_momenta = self._slopes(NUMPY, EARLY, one[:size], other[size:], c)
+        elsewhere = self._slopes(NUMPY, LATE, other[:size], one[size:], c)
+        pairs = zip(here, other_momenta[:size] + elsewhere[size:], strict=True)
+        return all(abs(a - b) <= SAME * (abs(a) + abs(b)) for a, b in pairs)
+
+    def _generic_states(self) -> tuple[list[float], list[float]]:
+        """Two states about the start, at which no component is what it is there."""
         start = self.start_in(NUMPY)
-        here = self._slopes(NUMPY, 0.0, start[:size], start[size:], c)
-        moved = [value * FAR[i % len(FAR)] + NEAR[i % len(NEAR)] for i, value in enumerate(start)]
-        other_momenta = self._slopes(NUMPY, 0.0, start[:size], moved[size:], c)
-        other_positions = self._slopes(NUMPY, 0.0, moved[:size], start[size:], c)
-        elsewhere = other_momenta[:size] + other_positions[size:]
-        return all(abs(a - b) <= SAME * (abs(a) + abs(b)) for a, b in zip(here, elsewhere, strict=True))
+        return tuple(  # type: ignore[return-value]
+            [value * FAR[(i + k) % len(FAR)] + NEAR[(i + k) % len(NEAR)] for i, value in enumerate(start)]
+            for k in range(2)
+        )
 
     @property
     def second_order(self) -> bool:
@@ -514,4 +554,6 @@ class HamiltonianProblem(Problem):
 
 FAR, NEAR = (1.1, 0.9, 1.2), (0.05, -0.07, 0.03)
 """By such factors and terms a state is moved to see on what slopes depend."""
+EARLY, LATE = 0.3, 0.7
+"""Times at which they are taken."""
 SAME = 1e-12

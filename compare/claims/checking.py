@@ -25,6 +25,7 @@ from compare.claims.order import ladder, measured
 from compare.claims.powers import lower, powers
 from compare.claims.record import Check
 from reference.arithmetic.underflow import require_gradual
+from reference.consistency import consistent
 from reference.problem import Problem
 from reference.problems.families import usual_problem
 
@@ -121,6 +122,7 @@ def _motion(problem: Any) -> Problem:
         raise ValueError(f"problem is {problem!r}, a curve along {problem.space.along}; {accepted}")
     if not problem.serves("state") or problem.row("state").over in {"once", "index"}:
         raise ValueError(f"problem is {problem!r}, without a state at a time; {accepted}")
+    consistent(problem)
     return problem
 
 

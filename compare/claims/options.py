@@ -55,7 +55,10 @@ def options(known: argparse.Namespace, families: Sequence[Family]) -> dict[str, 
         "form": known.form,
     }
     if known.problem is not None:
-        inputs = inputs_given(find_family(known.problem), known, families)
+        family = find_family(known.problem)
+        inputs = inputs_given(family, known, families)
+        if len(several := inputs.get(family.comparison.varied, ())) > 1:
+            raise ValueError(f"--{family.comparison.varied} has {len(several)} values; a check is on one.")
         given["problem"] = {"family": known.problem, "inputs": {name: _plain(value) for name, value in inputs.items()}}
     if known.seconds is not None:
         given["seconds"] = _positive("seconds", known.seconds)

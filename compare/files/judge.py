@@ -22,6 +22,7 @@ from compare.files.scales import Point
 from reference.arithmetic.namespaces import BALL
 from reference.arithmetic.precision import ctx
 from reference.arithmetic.underflow import require_gradual
+from reference.consistency import consistent
 from reference.names import short
 from reference.orbits import apart
 from reference.problem import Problem
@@ -268,6 +269,7 @@ class Judge:
                 f"problem is {problem!r}; a problem with a state in time, such as Pendulum(1.0), is accepted."
             )
         require_gradual("a score")
+        consistent(problem)
         self.problem = problem
         self.time = _time(problem)
         self.held = 0.0

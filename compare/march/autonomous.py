@@ -20,8 +20,12 @@ from reference.problem import Problem
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
+    from flint import arb
+
     from reference.certified import Certified
     from reference.declaration import Row
+    from reference.orbits import Orbits, Place
+    from reference.row_domains import Domain
 
 __all__ = ["autonomous"]
 
@@ -163,6 +167,13 @@ class _WithTime(Problem):
     def lacks_of_orbits(self) -> str:
         return self.inner.lacks_of_orbits
 
+    def domain(self, row: Row) -> Domain:
+        return self.inner.domain(self.inner.row(row.name))
+
+    def orbits(self) -> Orbits | None:
+        known = self.inner.orbits()
+        return None if known is None else _OrbitsInTime(known, self._place)
+
     def state(self, t: Any, limbs: int = 1) -> np.ndarray:
         """The proven state, and the time itself to as many limbs."""
         found = np.asarray(self.inner.state(t, limbs=limbs))
@@ -170,3 +181,17 @@ class _WithTime(Problem):
         parts = np.array([exact_limbs(time, limbs) for time in times]).reshape(*shape, limbs)
         own = parts[..., 0] if limbs == 1 else parts
         return np.insert(found, self._place, own, axis=len(shape))
+
+
+@dataclass(frozen=True)
+class _OrbitsInTime:
+    """The original's orbits, of a state with the time at a place of it."""
+
+    known: Orbits
+    at: int
+
+    def truth(self, t: Fraction) -> Place:
+        return self.known.truth(t)
+
+    def place(self, y: Sequence[arb]) -> Place:
+        return self.known.place([*y[: self.at], *y[self.at + 1 :]])

@@ -11,6 +11,7 @@ from reference.arithmetic.compiler import hy
 from reference.arithmetic.dual import Dual, DualArithmetic
 from reference.arithmetic.namespaces import BALL, NUMPY, Heyoka
 from reference.arithmetic.series import jet
+from reference.problem import NO_TIME
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -23,24 +24,7 @@ if TYPE_CHECKING:
     from compare.methods.order.algebraic import Coefficient, Enclosed
     from reference.problem import Problem
 
-__all__ = ["NO_TIME", "BoundSystem", "FormatArithmetic", "plain_system"]
-
-
-class _NoTime:
-    """What stands for the time in an equation that is without it.
-
-    Raises:
-        ValueError: it is made use of.
-    """
-
-    def _used(self, *_others: Any) -> Any:
-        raise ValueError("the equation depends on the time; a problem that declares autonomous = False is accepted.")
-
-    __add__ = __radd__ = __sub__ = __rsub__ = __mul__ = __rmul__ = __truediv__ = __rtruediv__ = __pow__ = _used
-    __neg__ = __float__ = __array__ = _used
-
-
-NO_TIME = _NoTime()
+__all__ = ["BoundSystem", "FormatArithmetic", "plain_system"]
 
 
 class FormatArithmetic:

@@ -6,6 +6,8 @@ import math
 from functools import lru_cache
 from typing import TYPE_CHECKING
 
+from compare.march.lanes import drift_scales
+from compare.march.precision import precision
 from compare.measure.records import Case
 from reference.arithmetic.precision import ctx
 
@@ -89,28 +91,25 @@ def _absolute(problem: Problem) -> str:
     return f"|{names[0]} - exact|{shared}" if len(names) == 1 else f"error of {' or '.join(names)}{shared}"
 
 
-def _canonical(problem: Problem) -> bool:
-    """Whether momenta are known: as components, as multiples of velocities, or as an energy's slopes by them."""
-    space = problem.space
-    return bool(space.momenta or (space.velocities and (problem.positions or problem.invariants)))
-
-
 def _lacks(problem: Problem) -> dict[str, str]:
     """The scores that need what the problem has not, each with the reason."""
     space, found = problem.space, {}
     if not problem.invariants:
         found["drift"] = "nothing is conserved"
+    elif not any(drift_scales(problem, precision("float64"))):
+        names = ", ".join(one.name for one in problem.invariants)
+        found["drift"] = f"nothing but zero is there to divide the change of {names} by"
     with ctx.workprec(ENOUGH_BITS):
         orbital = problem.orbits() is not None
     if not orbital:
         found["phase"] = problem.lacks_of_orbits.removesuffix(".")
     if not math.isfinite(problem.cycle()):
-        found["period"] = "the exact motion has no period"
+        found["period"] = "no period is declared"
     elif not orbital:
         found["period"] = found["phase"]
     if space.along is not None:
         found["growth"] = "along a curve there is no time to grow in"
-    missing = ["there are no momenta"] if not _canonical(problem) else []
+    missing = [] if problem.has_momenta else ["there are no momenta"]
     missing += ["turning back means nothing"] if space.odd is None else []
     if missing:
         found["defects"] = ", and ".join(missing)

@@ -16,11 +16,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from compare.march.equation import NO_TIME, BoundSystem, FormatArithmetic
+from compare.march.equation import BoundSystem, FormatArithmetic
 from compare.march.lanes import StartInvariant, drift_scales, initial_invariants
 from compare.march.precision import precision
 from reference.arithmetic.namespaces import NUMPY
 from reference.arithmetic.precision import ctx
+from reference.problem import NO_TIME
 
 if TYPE_CHECKING:
     from compare.march.precision import Precision

@@ -33,7 +33,7 @@ if TYPE_CHECKING:
     from compare.methods.kinds.one_step import Method
     from reference.problem import Problem
 
-__all__ = ["canonical_places", "defects", "has_symplectic_form", "symplectic_change", "symplectic_form"]
+__all__ = ["canonical_places", "defects", "symplectic_change", "symplectic_form"]
 
 STATES = 16
 """States of the exact motion at which the area is measured."""
@@ -83,20 +83,13 @@ def _form_defects(runs: Sequence[Run]) -> list[FormDefect]:
     method, course = runs[0].method, runs[0].course
     method = method.base if isinstance(method, Compensated) else method
     problem = course.problem
-    if not has_symplectic_form(problem) or method.memory(len(problem.state_names), problem.positions):
+    if not problem.has_momenta or method.memory(len(problem.state_names), problem.positions):
         return [NO_FORM] * len(runs)
     largest = max(float(run.course.h) for run in runs)
     step = _compiled(method, course, iterations_for(method, problem, largest, course.fmt.bits))
     form = symplectic_form(problem, course.fmt)
     with np.errstate(all="ignore"):
         return [NO_FORM if np.isnan(run.march.states).all() else _form_defect(step, form, run) for run in runs]
-
-
-def has_symplectic_form(problem: Problem) -> bool:
-    """Whether momenta are declared, or velocities that are momenta or of which an energy tells these."""
-    space = problem.space
-    told = problem.positions or (problem.invariants and problem.autonomous)
-    return bool(space.momenta or (space.velocities and told))
 
 
 def symplectic_form(problem: Problem, fmt: Precision) -> Callable[[np.ndarray], np.ndarray]:

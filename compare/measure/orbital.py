@@ -15,10 +15,10 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 from flint import arb
 
-from compare.march.equation import NO_TIME
 from compare.measure.truth import proven
 from reference.arithmetic.namespaces import BALL
 from reference.arithmetic.precision import ctx
+from reference.problem import NO_TIME
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

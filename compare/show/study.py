@@ -130,7 +130,7 @@ def _growth(study: Study, case: Case, declared: dict[str, int], width: int) -> I
             notes = _GROWTH_NOTE, NOTES[DOUBT] if doubt else "", _GROWTH_NAN if nan else ""
             yield Table(
                 name=f"growth-{quantity}-{text_table.slug(case.label)}",
-                title=f"Growth, {case.label}: law of the {_WORDS.get(quantity, f'change of the {quantity}')} over time",
+                title=f"Growth, {case.label}: law of the {_WORDS.get(quantity, f'change of {quantity}')} over time",
                 grids=(found_grid,),
                 note="\n".join(filter(None, notes)),
             )

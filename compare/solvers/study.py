@@ -18,6 +18,7 @@ from compare.solvers.solver import Question
 from compare.study import family_of, inputs_shown, problems_of
 from reference import __version__
 from reference.arithmetic.exact import as_number, exact, positive
+from reference.consistency import consistent
 from reference.family import Family
 from reference.problems.families import USUAL
 from reference.routes.agreement import ROUTES
@@ -67,6 +68,8 @@ def study(
     """
     family = problem if isinstance(problem, Family) else family_of(problem)
     problems = problems_of(family, inputs)
+    for one in problems:
+        consistent(one)
     marching = family.comparison.forms[0][1]
     ends = [marching.end.of(one, None) if t_end is None else exact(t_end, "t_end") for one in problems]
     chosen = SOLVERS if solvers is None else select(some(solvers, "solvers"))

@@ -7,6 +7,7 @@ from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
 from reference.arithmetic.exact import as_number, exact, expansion
+from reference.consistency import consistent
 from reference.names import short
 
 if TYPE_CHECKING:
@@ -105,6 +106,8 @@ def quantities(family: Family, inputs: Mapping[str, Any]) -> list[Certified]:
     arguments["once"] = None
     along = {asked.name for asked in family.inputs if asked.over}
     problem = family.problem(**{name: value for name, value in inputs.items() if name not in along})
+    if problem.serves("state"):
+        consistent(problem)
     rows = {row.name: row for row in problem.rows}
     found = [
         problem.certified(name, arguments[rows[name].over], component)

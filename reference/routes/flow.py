@@ -125,7 +125,7 @@ class _Known:
         """heyoka's variables and parameters, and their rates."""
         from reference.arithmetic.compiler import hy
 
-        variables = list(hy.make_vars(*self.state_names))
+        variables = [hy.expression(name) for name in self.state_names]
         symbols = {name: hy.par[i] for i, name in enumerate(self.parameter_names)}
         rates = [
             rate if isinstance(rate, hy.expression) else hy.expression(rate)

@@ -105,6 +105,7 @@ class KeplerInSpace(Kepler):
     name: ClassVar[str] = "kepler in space"
     space: ClassVar[StateSpace] = space_of("x y z", "px py pz", momenta=("px", "py", "pz"))
     rows: ClassVar[tuple[Row, ...]] = states(space)
+    trial: ClassVar[Trial] = Trial(states=((0.5, 1.0),) * 6, parameters={"gm": (0.5, 2.0)}, step=(0.001, 0.01))
 
 
 @dataclass(frozen=True, repr=False)

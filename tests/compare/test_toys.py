@@ -205,7 +205,7 @@ def test_a_step_function_of_the_users_own_is_the_method_that_it_is() -> None:
     [
         ([lambda f, y, h: y + h * f(y)], "compare.method"),
         ([classic, compare.method(order=2, name="classic")(lambda f, y, h: y + h * f(y))], "two of the name classic"),
-        ([3], "a name such as 'rk4'"),
+        ([3], "method '3' is unknown"),
     ],
 )
 def test_what_is_no_method_is_refused_in_one_sentence(methods: list[Any], sentence: str) -> None:

@@ -295,7 +295,7 @@ def test_what_a_problem_does_not_declare_is_named_where_it_is_asked_for():
         (lambda: bare.equation, "equation"),
         (lambda: bare.force(None, 0, (), {}), "force"),
         (lambda: bare.closed_form(None), "closed_form"),
-        (bare.rate, "rows"),
+        (bare.rate, "space"),
     ):
         with pytest.raises(UndeclaredError, match=rf"^Bare, the problem 'bare', does not declare '{lacking}': .*\.$"):
             asked()

@@ -102,7 +102,7 @@ def test_force_and_velocity_are_hamiltons_equations_of_the_energy():
     theta, omega, g, length = hy.make_vars("theta", "omega", "g", "length")
     m = Heyoka()
     total = energy(m, theta, omega, g, length)
-    rates = Pendulum.derivative(m, 0, (theta, omega), {"g": g, "length": length})
+    rates = Pendulum(1).derivative(m, 0, (theta, omega), {"g": g, "length": length})
     differences = [rates[0] - hy.diff(total, omega), rates[1] + hy.diff(total, theta)]
     compiled = hy.cfunc(differences, [theta, omega, g, length])
     points = np.random.default_rng(7).uniform(0.1, 3, (4, 100))
@@ -138,7 +138,7 @@ def test_the_closed_form_satisfies_the_equation(theta0, t):
         theta, omega = form.state(mp.mpf(t))
         rates = [mp.diff(lambda s, i=i: form.state(s)[i], mp.mpf(t)) for i in range(2)]
         parameters = {name: MPMATH.number(value) for name, value in pendulum.parameters.items()}
-        for rate, expected in zip(rates, Pendulum.derivative(MPMATH, 0, (theta, omega), parameters), strict=True):
+        for rate, expected in zip(rates, Pendulum(1).derivative(MPMATH, 0, (theta, omega), parameters), strict=True):
             assert abs(rate - expected) < mp.mpf(10) ** -35 * (1 + abs(expected))
 
 

@@ -76,7 +76,7 @@ def test_the_pendulum_becomes_linear_at_small_amplitudes():
 def test_the_force_pulls_back_and_the_energy_is_its_integral():
     problem = LinearPendulum(1, 2, 4)
     numbers = {name: float(value) for name, value in problem.parameters.items()}
-    assert LinearPendulum.derivative(None, 0, (3.0, 5.0), numbers) == (5.0, -1.5)
+    assert LinearPendulum(1).derivative(None, 0, (3.0, 5.0), numbers) == (5.0, -1.5)
     assert LinearPendulum.invariant(None, (3.0, 5.0), numbers) == (25 + 0.5 * 9) / 2
 
 

@@ -152,7 +152,7 @@ def test_the_arc_obeys_hamiltons_equations_and_is_separable():
     arc, rate, radius, g = hy.make_vars("arc", "rate", "radius", "g")
     parameters = {"radius": radius, "g": g}
     total = CycloidalPendulum.invariant(Heyoka(), (arc, rate), parameters)
-    rates = CycloidalPendulum.derivative(Heyoka(), 0, (arc, rate), parameters)
+    rates = CycloidalPendulum(1).derivative(Heyoka(), 0, (arc, rate), parameters)
     differences = [rates[0] - hy.diff(total, rate), rates[1] + hy.diff(total, arc)]
     points = np.random.default_rng(7).uniform(0.1, 3, (4, 100))
     assert np.abs(hy.cfunc(differences, [arc, rate, radius, g])(points)).max() < 1e-12
