@@ -344,6 +344,8 @@ class Judge:
         lacking, lost = self.problem.lacks_of_orbits, running.lost
         notes = [f"{constant}." for constant in self.problem.constants]
         notes += [lacking] if lacking else []
+        if not self.problem.invariants:
+            notes.append(f"No energy error is defined for the problem {self.problem.name}: nothing is conserved.")
         if lost is not None and not (lacking and self._phaseless):
             notes.append(
                 f"Row {lost.number}, {self.time} = {lost.t}, is the first whose state is on no orbit of the exact "

@@ -107,7 +107,7 @@ class Scales:
         held = self.held(held)
         scaled = [max(0.0, digits) for digits in self.digits(point)]
         own = [b if math.isnan(a) else a for a, b in zip(point.relative, scaled, strict=True)]
-        return replace(point, digits=min(*own, held), scaled_digits=min(*scaled, held))
+        return replace(point, digits=min([*own, held]), scaled_digits=min([*scaled, held]))
 
 
 def _rounded(log: float) -> tuple[float, int]:

@@ -94,7 +94,7 @@ def _apart(problem: Problem, near: Problem, sizes: np.ndarray) -> float:
     starts = [abs(float(a - b)) for a, b in zip(problem.start, near.start, strict=True)]
     named = near.parameters
     parameters = [abs(float((value - named[name]) / (value or 1))) for name, value in problem.parameters.items()]
-    return float(max(*np.divide(starts, sizes), *parameters))
+    return float(max([*np.divide(starts, sizes), *parameters]))
 
 
 def _in_one_plane(problem: Problem, near: Problem) -> bool:

@@ -14,8 +14,9 @@ import compare
 from compare.measure.cases import case_of
 from compare.scored import score_all
 from compare.study import study
-from reference import ClosedForm, HamiltonianProblem, Invariant, Quantity, Row, StateSpace, Trial
+from reference import ClosedForm, HamiltonianProblem, Invariant, Problem, Quantity, Row, StateSpace, Trial
 from reference.family import Input
+from reference.routes.taylor import TaylorRoute
 from reference.row_domains import TIME
 
 STATE = Row("state", (Quantity("q", "1", "position", "q"), Quantity("p", "1", "momentum", "p")), TIME)
@@ -198,10 +199,9 @@ class Growing(ClosedForm):
         self.m, self.momentum = m, momentum
 
     def state(self, t: Any) -> tuple[Any, Any]:
-        grow, fall = self.m.exp(t) / 2, self.m.exp(-t) / 2
-        return (1 + self.momentum) * grow + (1 - self.momentum) * fall, (1 + self.momentum) * grow - (
-            1 - self.momentum
-        ) * fall
+        growing = (1 + self.momentum) * self.m.exp(t) / 2
+        falling = (1 - self.momentum) * self.m.exp(-t) / 2
+        return growing + falling, growing - falling
 
 
 def test_an_energy_that_is_zero_is_said_to_be_no_scale() -> None:
@@ -231,3 +231,45 @@ def test_a_fast_motion_is_looked_at_in_its_own_time() -> None:
 def test_of_problems_the_one_that_is_none_is_named() -> None:
     with pytest.raises(TypeError, match="problems holds a int"):
         score_all([Forced(), 1], ["rk4"], n=[64])  # type: ignore[list-item]
+
+
+@dataclass(frozen=True)
+class Logistic(Problem):
+    """y' = y (1 - y) from 1/8: one component, of first order, nothing conserved; y = 1/(1 + 7 exp(-t))."""
+
+    y0: Fraction = Fraction(1, 8)
+
+    name: ClassVar[str] = "logistic"
+    rows: ClassVar[tuple[Row, ...]] = (Row("state", (Quantity("y", "1", "population", "y"),), TIME),)
+    space: ClassVar[StateSpace] = StateSpace(
+        positions=("y",), angles=(), odd=None, along=None, scale="units", independent=""
+    )
+    invariants: ClassVar[tuple[Invariant, ...]] = ()
+    trial: ClassVar[Trial] = Trial(states=((0.1, 0.9),), parameters={}, step=(0.01, 0.1))
+    parameters: ClassVar[Any] = property(lambda self: {})
+    start: ClassVar[Any] = property(lambda self: (self.y0,))
+    inputs: ClassVar[Any] = property(lambda self: {"y0": (float(self.y0), "")})
+
+    def derivative(self, m: Any, t: Any, y: Any, p: Any) -> tuple[Any, ...]:
+        return (y[0] * (1 - y[0]),)
+
+    def closed_form(self, m: Any) -> ClosedForm:
+        return Saturating(m, m.number(self.y0))
+
+
+class Saturating(ClosedForm):
+    def __init__(self, m: Any, y0: Any) -> None:
+        self.m, self.y0 = m, y0
+
+    def state(self, t: Any) -> tuple[Any]:
+        return (self.y0 / (self.y0 + (1 - self.y0) * self.m.exp(-t)),)
+
+
+def test_a_state_of_one_component_is_marched_scored_and_proven() -> None:
+    (proven,) = Logistic().state(2)
+    assert proven == 1 / (1 + 7 * np.exp(-2.0))
+    ((flow,),) = TaylorRoute(Logistic(), 128).rows("state", [Fraction(2)])
+    assert float(flow) == pytest.approx(float(proven), rel=1e-15)
+    scored = score_all([Logistic()], ["rk4", "gauss4", "bdf2"], n=[64, 128, 256], t_end=4)
+    assert [round(fit.fitted_order or 0) for fit in scored.orders] == [4, 4, 2]
+    assert {"drift", "defects", "phase"} <= set(dict(case_of(Logistic()).lacks))

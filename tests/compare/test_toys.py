@@ -162,6 +162,7 @@ def test_a_file_is_scored(
     assert main(["score", str(path), "--problem", f"{TOYS}:{name}", *words, "--format", "json"]) == 0
     found = json.loads(capsys.readouterr().out)
     assert found["max_error"] == pytest.approx(1e-3, rel=1e-6)
+    assert any("No energy error is defined" in note for note in found["notes"]) == (not problem.invariants)
     assert score(problem, times, states).max_error == pytest.approx(1e-3, rel=1e-6)
 
 
