@@ -15,7 +15,9 @@ from compare.measure.cases import case_of
 from compare.scored import score_all
 from compare.study import study
 from reference import ClosedForm, HamiltonianProblem, Invariant, Problem, Quantity, Row, StateSpace, Trial
+from reference.consistency import examine
 from reference.family import Input
+from reference.problems.families import FAMILIES
 from reference.routes.taylor import TaylorRoute
 from reference.row_domains import TIME
 
@@ -226,6 +228,13 @@ def test_a_fast_motion_is_looked_at_in_its_own_time() -> None:
     fast = Spring(Fraction(10**8))
     assert fast.rate() == pytest.approx(2e4, rel=1e-9)
     assert np.isfinite(compare.error_vs_n(fast, ["rk4"], n=[256], t_end=1e-3)[0].max_error)
+
+
+@pytest.mark.parametrize("family", FAMILIES, ids=lambda family: family.name)
+def test_the_problems_of_the_package_do_not_contradict_themselves(family: Any) -> None:
+    for reported in family.reported:
+        for amplitude in reported.amplitudes:
+            examine(reported.problem(amplitude))
 
 
 def test_of_problems_the_one_that_is_none_is_named() -> None:

@@ -144,6 +144,7 @@ class Driven(Problem):
         Row("state", (Quantity("x", "m", "place", "x'' = -k x + cos(t)"), Quantity("v", "m s-1", "rate", "x'")), TIME),
         Row("mean", (Quantity("mean", "m", "mean of x", "0"),), ONCE),
     )
+    invariants = ()
     autonomous = False
     k: Fraction = Fraction(4)
 
