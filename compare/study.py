@@ -34,7 +34,7 @@ if TYPE_CHECKING:
     from reference.family import End, Input, Marched
     from reference.problem import Problem
 
-__all__ = ["TRACE_N", "family_of", "inputs_shown", "problems_of", "study"]
+__all__ = ["TRACE_N", "family_of", "inputs_shown", "problems_of", "study", "units_of"]
 
 TRACE_N = 256
 """Of the numbers of steps that are asked for, trajectories have that nearest to this one."""
@@ -62,12 +62,13 @@ def study(family: Family | str, form: Sequence[str] | None = None, *, traces: bo
     bases = problems_of(one, inputs)
     marched: list[Problem] = []
     lengths: list[Fraction] = []
-    header = inputs_shown(one, inputs, bases)
+    header, units = inputs_shown(one, inputs, bases), units_of(one)
     for marching in forms.values():
         problems = [marching.problem(base) for base in bases]
         own = [marching.end.of(problem, ends.get(marching.end.name)) for problem in problems]
         shown = [as_number(marching.end.shown(*pair)) for pair in zip(problems, own, strict=True)]
         header.setdefault(marching.end.name, shown if marching.end.each else shown[0])
+        units.setdefault(marching.end.name, problems[0].space.independent)
         marched += problems
         lengths += own
     counts = [1 << k for k in range(LEAST_N.bit_length() - 1, comparison.largest.bit_length())]
@@ -88,6 +89,7 @@ def study(family: Family | str, form: Sequence[str] | None = None, *, traces: bo
         order=scored.orders,
         energy_drift=scored.drifts,
         scores=scored.scores,
+        units=units,
         **{score: scored.asked(score) for score in EXTRAS},
         traces=kept,
         exact=exact_orbits,
@@ -170,6 +172,11 @@ def inputs_shown(family: Family, inputs: dict[str, Any], problems: Sequence[Prob
         if value is not None:
             found[name] = _shown(other, value)
     return found
+
+
+def units_of(family: Family) -> dict[str, str]:
+    """The units of the inputs; "" for pure numbers."""
+    return {wanted.name: wanted.units.removeprefix("1") for wanted in family.inputs}
 
 
 def _shown(wanted: Input, value: Any) -> Any:

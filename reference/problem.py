@@ -232,7 +232,7 @@ class Problem:
     @property
     def has_momenta(self) -> bool:
         """Whether momenta are known: as components, as velocities themselves, or as an energy's slopes by them."""
-        told = self.positions or (self.invariants and self.autonomous)
+        told = self.positions or (self.autonomous and [one.name for one in self.invariants[:1]] == ["energy"])
         return bool(self.space.momenta or (self.space.velocities and told))
 
     def state_bounds(self) -> StateBounds | None:
@@ -279,16 +279,16 @@ class Problem:
 
         ``rounding`` gives the format's nearest number, ``epsilon`` its relative spacing.  Of itself it is the problem
         whose first number that is a field of it and not zero, inputs first, is smaller by 2^-36 of itself, or by 16
-        roundings.
+        roundings; where all are zero, the first is 2^-36, or 16 roundings of one.
 
         Raises:
-            ValueError: no field may be moved.
+            ValueError: no field is a number.
         """
         given: dict[str, Any] = {one.name: getattr(self, one.name) for one in fields(self) if one.init}
-        for name in (*self.inputs, *given):
-            if isinstance(given.get(name), Fraction) and given[name]:
-                given[name] = rounding(given[name] * (1 - max(APART, 16 * epsilon)))
-                return type(self)(**given)
+        numbers = [name for name in (*self.inputs, *given) if isinstance(given.get(name), Fraction)]
+        for name in sorted(numbers, key=lambda name: given[name] == 0)[:1]:
+            moved = given[name] * (1 - max(APART, 16 * epsilon)) if given[name] else max(APART, 16 * epsilon)
+            return type(self)(**{**given, name: rounding(moved)})
         raise ValueError(f"{self!r} has no number to be moved; a problem that declares its neighbour is accepted.")
 
     @declared
@@ -487,7 +487,13 @@ class HamiltonianProblem(Problem):
         duals, size = DualArithmetic(m, 2 * len(q)), len(q)
         positions = [duals.variable(value, i) for i, value in enumerate(q)]
         momenta = [duals.variable(value, size + i) for i, value in enumerate(p)]
-        return list(self.hamiltonian(duals, t, positions, momenta, c).slopes)
+
+        def fixed(value: Any) -> Any:
+            """What has slopes of its own, by something else, is a constant here."""
+            return duals.constant(value) if isinstance(value, Dual) else value
+
+        constants = {name: fixed(value) for name, value in c.items()}
+        return list(self.hamiltonian(duals, fixed(t), positions, momenta, constants).slopes)
 
     def derivative(self, m: Arithmetic, t: Any, y: Sequence[Any], p: dict[str, Any]) -> tuple[Any, ...]:
         """(dH/dp, -dH/dq) in the order of the state."""

@@ -455,7 +455,9 @@ class _Bench:
         return float(change if self._scale.contains(0) else change / abs(self._scale))
 
     def _invariant(self, y: Sequence[arb]) -> arb | None:
-        return arb(self._problem.invariant(BALL, y, self._parameters)) if self._problem.invariants else None
+        if not self._problem.invariants:
+            return None
+        return arb(getattr(self._problem, self._problem.invariants[0].value)(BALL, y, self._parameters))
 
 
 def _log10(ball: arb) -> float:

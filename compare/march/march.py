@@ -138,9 +138,9 @@ def _sorted(method: Method, lanes: Sequence[Lane], fmt: Precision) -> dict[tuple
     return groups
 
 
-def converged(change: float, states: np.ndarray, fmt: Precision) -> bool:
+def converged(change: float, states: np.ndarray, start: np.ndarray, fmt: Precision) -> bool:
     """Whether the last iterations of implicit steps, which changed states by so much, were the last that count."""
-    size = max(1.0, float(np.max(np.abs(states.astype(np.float64)))))
+    size = max(1.0, *(float(np.max(np.abs(one.astype(np.float64)))) for one in (states, start)))
     return change <= CONVERGED * fmt.epsilon * size
 
 
@@ -297,7 +297,7 @@ class _Group:
         lane = self.lanes[i]
         states = self.states[i, : len(lane.samples)]
         *drifts, change = map(float, self.maxima[i])
-        if not converged(change, states, self.fmt):
+        if not converged(change, states, self.fmt.array(lane.start or lane.problem.start), self.fmt):
             states, drifts = np.full(states.shape, np.nan), [math.nan] * len(drifts)
         per_step, once = self.method.evaluations(self.iterations)
         own = max(lane.n - self.method.starting_steps, 0)

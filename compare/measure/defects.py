@@ -183,7 +183,7 @@ def _changes(
     size = 2 * len(course.problem.space.pairs)
     found = step(states, parameters)
     after, entries, changes = np.split(found, [len(states), len(states) + size**2])
-    if not converged(float(np.max(np.abs(changes), initial=0.0)), after, course.fmt):
+    if not converged(float(np.max(np.abs(changes), initial=0.0)), after, states, course.fmt):
         after = np.full_like(after, np.nan)
     return symplectic_change(entries.reshape(size, size, -1), form(states), form(after))
 

@@ -120,7 +120,7 @@ class _Neighbours:
         return _turned(self._orbits.place(y), self._orbits.place(later)) / self._apart
 
     def _energy(self, y: Sequence[arb]) -> arb:
-        found: arb = self._problem.invariant(BALL, y, self._parameters)
+        found: arb = getattr(self._problem, self._problem.invariants[0].value)(BALL, y, self._parameters)
         return found
 
 

@@ -320,6 +320,7 @@ class Study:
         engine: how the numbers were marched: precision, compiler, what a rounding floor belongs to.
         cases: the problems.
         scores: what is to be shown, of ``compare.measure.wanted.SCORES``.
+        units: of the parameters that have some.
         phase, growth, period, defects: None where they were not asked for.
     """
 
@@ -336,5 +337,6 @@ class Study:
     growth: tuple[Growth, ...] | None = None
     period: tuple[OwnPeriod, ...] | None = None
     defects: tuple[Defect, ...] | None = None
+    units: dict[str, str] = field(default_factory=dict, repr=False)
     traces: tuple[Trace, ...] = field(default=(), repr=False)
     exact: tuple[Trace, ...] = field(default=(), repr=False)

@@ -86,7 +86,9 @@ def find(name: str) -> Method:
 @cache
 def _own(name: str) -> StepFunction:
     """A method in a module of the user's own, the same each time that it is asked for."""
-    found: StepFunction = named(name, "method", "STEP", lambda value: isinstance(value, StepFunction))
+    found: StepFunction = named(
+        name, "function under @compare.method(order=N)", "STEP", lambda value: isinstance(value, StepFunction)
+    )
     return replace(found, name=name, aliases=(found.name,)) if found.name != name else found
 
 

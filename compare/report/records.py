@@ -45,6 +45,7 @@ class Report:
     Attributes:
         problem: what the files are called.
         parameters: what was asked for.
+        units: of the parameters that have some.
         reference: where the truth comes from.
         engine: how the work was counted and clocked.
         points: in order of family, amplitude, method or solver, setting.
@@ -55,6 +56,7 @@ class Report:
 
     problem: str
     parameters: dict[str, Any]
+    units: dict[str, str]
     reference: dict[str, Any]
     engine: dict[str, Any]
     points: tuple[WorkPoint, ...]

@@ -316,6 +316,7 @@ def _report(wanted: Plan, found: dict[Task, tuple[WorkPoint, ...]], where: str) 
     return Report(
         problem="work-precision",
         parameters=wanted.parameters,
+        units={"t_end": "s"},
         reference={
             "version": __version__,
             "routes": ["enclosure", *ROUTES],

@@ -53,7 +53,7 @@ _GROWTH_NOTE = (
     "exponent of t ± its 95 % interval; no law where none is clear\n"
     "* means that the error is rounding: the mean of marches from several starts"
 )
-_GROWTH_NAN = "nan means fewer than 32 periods, or an error that is no number"
+_GROWTH_NAN = "nan means fewer than 32 periods or 128 steps, or an error that is no number"
 
 
 def _norms(study: Study, case: Case, declared: dict[str, int], width: int) -> Iterator[Table]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from typing import TYPE_CHECKING, Any
 
 from compare.show.page import Head, Lines, Page, plain
@@ -18,18 +19,6 @@ Columns = dict[str, tuple[str, ...]]
 """The fields of each table of a study, by the table's name."""
 RANGES = {"n_range": ("n_from", "n_to")}
 """Fields that hold two numbers, and what the two are called in CSV."""
-_UNITS = {
-    "theta0": "rad",
-    "omega0": "rad/s",
-    "angle": "rad",
-    "end": "m",
-    "radius": "m",
-    "g": "m/s^2",
-    "length": "m",
-    "t_end": "s",
-    "depth": "m",
-    "psi_end": "rad",
-}
 
 
 def study_page(study: Any, tables: Callable[[Any, int], Iterable[Table]], columns: Columns, prefix: str = "") -> Page:
@@ -87,10 +76,23 @@ def _sheet(study: Any, table: str, columns: Columns) -> Iterator[list[Any]]:
 
 def header(study: Any) -> Iterator[tuple[str, str]]:
     """What was computed, against what and by what: names and their facts."""
-    values = (f"{name} = {_value(value)} {_UNITS.get(name, '')}".rstrip() for name, value in study.parameters.items())
+    values = (
+        f"{name} = {_value(value)} {_slashed(study.units.get(name, ''))}".rstrip()
+        for name, value in study.parameters.items()
+    )
     yield study.problem, ", ".join(values)
     for name, fact in (*study.reference.items(), *study.engine.items()):
         yield name, _value(fact)
+
+
+def _slashed(units: str) -> str:
+    """Units with what is divided by behind a slash: m/s^2 of "m s-2"."""
+    powers = [re.fullmatch(r"(\D+?)(-?\d+)?", unit).groups() for unit in units.split()]  # type: ignore[union-attr]
+    above = [unit + (f"^{power}" if power else "") for unit, power in powers if not (power or "").startswith("-")]
+    below = [
+        unit + (f"^{power[1:]}" if power != "-1" else "") for unit, power in powers if (power or "").startswith("-")
+    ]
+    return "/".join([" ".join(above) or "1", *below]) if below else " ".join(above)
 
 
 def _value(value: object) -> str:

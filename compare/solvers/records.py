@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 from compare.measure.records import OfCase
@@ -106,6 +106,7 @@ class SolverStudy:
         engine: how the solvers were called.
         solvers: all that were asked for, missing ones included.
         cases: the problems.
+        units: of the parameters that have some.
     """
 
     problem: str
@@ -116,6 +117,7 @@ class SolverStudy:
     error_vs_rtol: tuple[SolverCell, ...]
     events: tuple[EventCell, ...]
     cases: tuple[Case, ...] = ()
+    units: dict[str, str] = field(default_factory=dict, repr=False)
 
     @property
     def scored(self) -> bool:

@@ -15,7 +15,7 @@ from compare.solvers.events import event_of
 from compare.solvers.records import SolverEntry, SolverStudy
 from compare.solvers.score import Asked, events, score_solver
 from compare.solvers.solver import Question
-from compare.study import family_of, inputs_shown, problems_of
+from compare.study import family_of, inputs_shown, problems_of, units_of
 from reference import __version__
 from reference.arithmetic.exact import as_number, exact, positive
 from reference.consistency import consistent
@@ -101,6 +101,7 @@ def study(
         error_vs_rtol=tuple(answer.cell for answer in answers),
         events=tuple(found),
         cases=tuple(map(case_of, problems)),
+        units={**units_of(family), "t_end": problems[0].space.independent},
     )
 
 

@@ -47,6 +47,7 @@ def made_study(
         error_vs_n=tuple(cell for pair in where for cell in _cells(*pair, n)),
         order=tuple(_fit(*pair) for pair in where),
         energy_drift=tuple(drift for pair in where for drift in _drifts(*pair, n)),
+        units={"theta0": "rad", "g": "m s-2", "length": "m", "t_end": "s"},
         traces=tuple(_trace(*pair) for pair in where),
         exact=tuple(map(_exact, cases)),
     )

@@ -11,6 +11,8 @@ import pytest
 from toys import KEPLER, Beats, Forced, Kepler
 
 import compare
+from compare.march.march import converged
+from compare.march.precision import precision
 from compare.measure.cases import case_of
 from compare.scored import score_all
 from compare.study import study
@@ -88,7 +90,7 @@ def test_a_hamiltonian_that_does_not_split_is_seen_away_from_its_start() -> None
 
 
 class Wrong(Forced):
-    """A solution that is off by one part in ten thousand."""
+    """A solution of which the velocity is off by one part in 10^18."""
 
     def closed_form(self, m: Any) -> Any:
         return Off(m, *map(m.number, (self.angle, *self.parameters.values())))
@@ -97,7 +99,7 @@ class Wrong(Forced):
 class Off(Beats):
     def state(self, t: Any) -> Any:
         angle, rate = super().state(t)
-        return angle, rate * self.m.number(Fraction(10_001, 10_000))
+        return angle, rate * self.m.number(1 + Fraction(1, 10**18))
 
 
 class Drifting(Forced):
@@ -117,6 +119,26 @@ class Shifted(Forced):
         return self.angle, Fraction(1, 1000)
 
 
+class Second(Kepler):
+    """An energy after another invariant."""
+
+    invariants = (Kepler.invariants[1], Kepler.invariants[0])
+
+
+class Misspelt(Forced):
+    def derivative(self, m: Any, t: Any, y: Any, p: Any) -> Any:
+        return y[1], m.cosine(t)
+
+
+class Lacking(Forced):
+    def derivative(self, m: Any, t: Any, y: Any, p: Any) -> Any:
+        return y[1], -p["stiffness"] * y[0]
+
+
+class Renamed(Forced):
+    space = replace(Forced.space, positions=("x",), angles=())
+
+
 class Short(Forced):
     trial = Trial(states=((-3, 3),), parameters=Forced.trial.parameters, step=(0.01, 0.1))
 
@@ -133,6 +155,10 @@ class Mixed(Kepler):
         (Shifted(), "does not begin at its start"),
         (Short(), "trial has 1 intervals of states"),
         (Mixed(), "positions are in 1 and in m"),
+        (Second(), "energy is not the first"),
+        (Misspelt(), "asks for 'cosine'; no arithmetic has it"),
+        (Lacking(), "asks for 'stiffness'; no parameter is called so"),
+        (Renamed(), "the state row has angle, rate"),
     ],
     ids=lambda value: type(value).__name__,
 )
@@ -141,6 +167,11 @@ def test_what_contradicts_itself_is_refused_in_one_sentence(problem: Any, senten
         compare.error_vs_n(problem, ["rk4"], n=[64])
     with pytest.raises(ValueError, match=sentence):
         compare.score(problem, [1.0], [[0.0] * len(problem.state_names)])
+
+
+def test_a_start_of_zeros_is_no_contradiction() -> None:
+    assert compare.error_vs_n(Forced(angle=0), ["rk4"], n=[64], t_end=2)[0].max_error < 1e-4
+    assert compare.error_vs_n(Logistic(Fraction(0)), ["rk4"], n=[64], t_end=2)[0].max_error == 0
 
 
 @pytest.mark.parametrize(
@@ -224,6 +255,21 @@ def test_an_exactly_reversible_step_is_so_on_an_unstable_motion() -> None:
     assert not compare.check(euler, order=1, reversible=True, problem=Saddle(Fraction(1, 2))).claims_hold
 
 
+def test_the_changes_of_an_implicit_march_are_held_against_its_start_too() -> None:
+    change, samples, start = 1e-6, np.array([1e-3]), np.array([1e10])
+    assert converged(change, samples, start, precision("float64"))
+    assert not converged(change, samples, samples, precision("float64"))
+
+
+class Turned(Saddle):
+    space: ClassVar[StateSpace] = replace(Spring.space, odd=("q", "p"))
+
+
+def test_a_reversor_that_is_none_is_refused() -> None:
+    with pytest.raises(ValueError, match="does not turn back where q, p changes sign"):
+        compare.error_vs_n(Turned(Fraction(1, 2)), ["rk4"], n=[64], t_end=1)
+
+
 def test_a_fast_motion_is_looked_at_in_its_own_time() -> None:
     fast = Spring(Fraction(10**8))
     assert fast.rate() == pytest.approx(2e4, rel=1e-9)
@@ -272,6 +318,26 @@ class Saturating(ClosedForm):
 
     def state(self, t: Any) -> tuple[Any]:
         return (self.y0 / (self.y0 + (1 - self.y0) * self.m.exp(-t)),)
+
+
+class Clock(Logistic):
+    """y' = 1, and a solution with that slope that falls now and then."""
+
+    def derivative(self, m: Any, t: Any, y: Any, p: Any) -> tuple[Any, ...]:
+        return (m.number(Fraction(1)),)
+
+    def closed_form(self, m: Any) -> ClosedForm:
+        return Falling(m, m.number(self.y0))
+
+
+class Falling(Saturating):
+    def state(self, t: Any) -> tuple[Any]:
+        return (self.y0 + self.m.atan2(self.m.sin(t), self.m.cos(t)),)
+
+
+def test_a_solution_that_leaps_is_refused() -> None:
+    with pytest.raises(ValueError, match="leaps: y is 3"):
+        compare.error_vs_n(Clock(), ["rk4"], n=[64], t_end=1)
 
 
 def test_a_state_of_one_component_is_marched_scored_and_proven() -> None:

@@ -277,6 +277,7 @@ def point(name, setting, error, evaluations, seconds=1e-3, **options):
 MADE = Report(
     problem="work-precision",
     parameters={"problems": {"pendulum": [1.0]}, "t_end": 10.0},
+    units={"t_end": "s"},
     reference={"version": "0.1.0"},
     engine={"precision": "float64"},
     points=(

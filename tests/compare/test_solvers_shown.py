@@ -63,6 +63,7 @@ def made_study():
     return SolverStudy(
         problem="pendulum",
         parameters={"theta0": [1.0], "t_end": 10.0},
+        units={"theta0": "rad", "t_end": "s"},
         reference={"version": "0.1.0"},
         engine={"precision": "float64"},
         solvers=(

@@ -278,6 +278,6 @@ def test_a_hamiltonian_with_the_time_in_it_splits() -> None:
             return Forced().closed_form(m)
 
     assert Driven().positions == 1
-    for name in ("verlet", "rk4", "yoshida4"):
+    for name in ("verlet", "rk4", "yoshida4", "gauss4", "bdf2"):
         (mine,), (other,) = (compare.error_vs_n(one, [name], n=[64], t_end=2) for one in (Driven(), Forced()))
         assert mine.max_error == pytest.approx(other.max_error, rel=1e-9)
