@@ -17,10 +17,13 @@ from reference import (
     Along,
     ClosedForm,
     Comparison,
+    Coordinate,
     Family,
+    Group,
     HamiltonianProblem,
     Input,
     Invariant,
+    Layout,
     Period,
     Quantity,
     Reported,
@@ -101,6 +104,25 @@ class Swing(ClosedForm):
         return self.a * cn, -self.a * self.w * sn * dn
 
 
+SWINGS = Layout(
+    path="/duffing/undamped",
+    long_name="oscillations from rest",
+    instances=(Coordinate("a", "1", "displacement at the release"),),
+    over={"time": Coordinate("time", "1", "time since the release")},
+    parameters=(),
+    rows=(STATE, PERIOD),
+    problem=Duffing,
+    reference="I. Kovacic and M. J. Brennan, The Duffing Equation, Wiley 2011, section 2.3",
+    statement="x'' = -x - x^3, from rest at x = a",
+    difficulty="lower: smooth, one degree of freedom",
+)
+
+
+def groups() -> tuple[Group, ...]:
+    """The groups of a dataset: a few amplitudes and times."""
+    return (Group(SWINGS, {}, {"a": (0.5, 1.0, 2.0), "time": (0.5, 1.0, 7.25)}),)
+
+
 FAMILY = Family(
     name="duffing",
     help="the undamped Duffing oscillator, released from rest",
@@ -109,4 +131,6 @@ FAMILY = Family(
     rows=("state", "period"),
     comparison=Comparison("duffing", "score integrators on the Duffing oscillator", "a", (1.0,), "displacement"),
     reported=(Reported("duffing", "a", "", "", (1.0,), Duffing),),
+    layouts=(SWINGS,),
+    core=groups,
 )

@@ -13,6 +13,7 @@ import pytest
 import compare
 from compare.__main__ import main
 from compare.study import study
+from reference.__main__ import main as reference_main
 from reference.problems.families import find_family
 
 FILE = Path(__file__).parents[1] / "docs" / "duffing.py"
@@ -51,6 +52,13 @@ def test_every_command_of_the_page(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["solvers", "--problem", f"{FILE}:FAMILY", *words]) == 0
     (row,) = json.loads(capsys.readouterr().out)["tables"]["error_vs_rtol"]
     assert row["max_error"] < 1e-4
+
+
+def test_a_dataset_of_it(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    path = tmp_path / "duffing.h5"
+    assert reference_main(["build", "--family", f"{FILE}:FAMILY", "--out", str(path), "--jobs", "1", "--quiet"]) == 0
+    assert reference_main(["verify", str(path), "--family", f"{FILE}:FAMILY", "--jobs", "1"]) == 0
+    assert "3 of 3 variables proven." in capsys.readouterr().out
 
 
 def test_a_check_on_it() -> None:
