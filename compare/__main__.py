@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING, Any
 
 from compare.arguments import Request, parse
 from reference.command.terminal import run
+from reference.named import with_equations
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
@@ -36,7 +37,7 @@ def main(words: Sequence[str] | None = None) -> int:
 
 
 def _command(words: Sequence[str] | None = None) -> int:
-    request = parse(sys.argv[1:] if words is None else words)
+    request = parse(with_equations(sys.argv[1:] if words is None else words))
     if request.command == "check":
         return _check(request)
     if request.command == "errata":
@@ -133,25 +134,26 @@ def _solvers(request: Request) -> int:
     """Print a study of solvers; where none of them could be scored, that is a failure, of which the tables say why."""
     studies: list[SolverStudy] = []
 
-    def kept(request: Request, progress: Callable[[str], None] | None) -> SolverStudy:
-        studies.append(_solver_study(request, progress))
-        return studies[-1]
+    def kept(request: Request, progress: Callable[[str], None] | None) -> SolverStudy | list[SolverStudy]:
+        studies.extend(_solver_studies(request, progress))
+        return studies if "several" in request.options else studies[0]
 
-    _print(_shown(request, kept, "compare.solvers.table", "compare.solvers.plot"))
-    if studies[-1].scored:
+    table = "compare.solvers.several" if "several" in request.options else "compare.solvers.table"
+    _print(_shown(request, kept, table, "compare.solvers.plot"))
+    if any(study.scored for study in studies):
         return 0
     print("error: none of these solvers could be scored; the tables say why.", file=sys.stderr)
     return 1
 
 
-def _solver_study(request: Request, progress: Callable[[str], None] | None) -> SolverStudy:
-    """The study, on a process pool where there is a core for it; a pool begins when the first task comes to it."""
-    from compare.solvers import study as solvers
+def _solver_studies(request: Request, progress: Callable[[str], None] | None) -> list[SolverStudy]:
+    """The studies, on a process pool where there is a core for it; a pool begins when the first task comes to it."""
+    from compare.solvers import several
     from reference.command.executors import other_cores, processes
 
     others = other_cores()
     with processes(others) if others else contextlib.nullcontext() as executor:
-        return solvers.study(**request.options, progress=progress, executor=executor)
+        return several.studies(request.options.get("several", [request.options]), progress, executor)
 
 
 def _report(request: Request) -> str:

@@ -14,6 +14,7 @@ from compare.solvers import options as solvers
 from compare.sources.errata import options as errata
 from compare.sources.published import options as published
 from reference.command.terminal import Parser, one_of
+from reference.named import is_own
 
 if TYPE_CHECKING:
     import argparse
@@ -84,8 +85,8 @@ def parse(words: Sequence[str]) -> Request:
         ValueError: it cannot be read; the sentence says what is accepted.
     """
     if not words:
-        names = (*_families(), *COMMANDS)
-        raise ValueError(f"no command is given; {_alternatives(names)} is accepted.")
+        names = [command for command, family in _families().items() if family.has_closed_form]
+        raise ValueError(f"no command is given; {_alternatives((*names, *COMMANDS, 'a flow'))} is accepted.")
     known = parser_for(words).parse_args(words)
     family = getattr(known, "family", None)
     if family is not None:
@@ -114,7 +115,7 @@ def _families(word: str = "") -> dict[str, Family]:
     """The families by their commands; one of the user's own by the word that says where it is."""
     from reference.problems.families import FAMILIES, find_family
 
-    if ":" in word:
+    if is_own(word):
         return {word: find_family(word)}
     return {family.comparison.command: family for family in FAMILIES}
 
@@ -122,12 +123,16 @@ def _families(word: str = "") -> dict[str, Family]:
 def parser_for(words: Sequence[str]) -> Parser:
     """The parser of a command line; what takes time to import is left out where its words do not need it."""
     families = {} if words[0] in COMMANDS else _families(words[0])
-    parser = Parser(prog="python -m compare", description="Score integrators.", epilog=_EPILOG)
+    flows = [command for command, family in families.items() if not family.has_closed_form]
+    described = f"Score integrators, also on these flows, by their names: {', '.join(flows)}."
+    parser = Parser(prog="python -m compare", description=described if flows else "Score integrators.", epilog=_EPILOG)
     commands = parser.add_subparsers(dest="command", metavar="COMMAND")
     for command, family in families.items():
         told = family.comparison.help
-        one = commands.add_parser(command, help=told, description=told, epilog=_EPILOG)
-        FamilyOptions(family).add_options(one)
+        listed: dict[str, Any] = {"help": told} if family.has_closed_form else {}
+        one = commands.add_parser(command, **listed, description=told, epilog=_EPILOG)
+        if command == words[0]:
+            FamilyOptions(family).add_options(one)
         one.set_defaults(family=family)
     for command, told in COMMANDS.items():
         epilog = _MISTAKE if command in _WITHOUT_NUMBERS else _EPILOG

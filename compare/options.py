@@ -25,18 +25,22 @@ SEVERAL: dict[str, Any] = {"action": "append", "metavar": "A,B"}
 
 
 def families_of(words: Sequence[str]) -> tuple[Family, ...]:
-    """The families whose inputs a command line may have: ours, or the user's own that it names with --problem.
+    """The families whose inputs a command line may have: those that it names with --problem.
 
-    A check that names none is of the usual problem, and none is imported for it.
+    One that names none may have those of all families with a closed form; but a check is then of the usual problem,
+    and none is imported for it.
+
+    Raises:
+        ValueError: there is none of a name.
+        FileNotFoundError, ImportError: the user's module that it names cannot be imported.
     """
     if words[0] == "check" and not any(word.startswith("--problem") for word in words):
         return ()
     from reference.problems.families import FAMILIES, find_family
 
-    following = [after for word, after in pairwise(words) if word == "--problem"]
+    following = [after for word, after in pairwise(words) if word == "--problem" and not after.startswith("-")]
     names = [*following, *(word.partition("=")[2] for word in words if word.startswith("--problem="))]
-    own = [name for name in names if ":" in name]
-    return tuple(map(find_family, own)) or FAMILIES
+    return tuple(map(find_family, names)) or tuple(family for family in FAMILIES if family.has_closed_form)
 
 
 def inputs_offered(families: Sequence[Family], parser: argparse.ArgumentParser) -> None:
@@ -49,7 +53,7 @@ def inputs_offered(families: Sequence[Family], parser: argparse.ArgumentParser) 
                 wanted, varies = family.input(name), name == comparison.varied
                 units = f", in {wanted.units}" if wanted.units not in {"", "1"} else ""
                 default = ", ".join(map(_typed, comparison.values)) if varies else wanted.default
-                default = f" (default {default})" if default else ""
+                default = f" (default {default})" if default and "(default" not in wanted.help else ""
                 offered[name] = f"{wanted.help}{units}{default}{'; may repeat' if varies else ''}"
                 metavar = "X,Y" if wanted.kind == "pair" else "A,B" if varies else name.upper()
                 parser.add_argument(

@@ -16,6 +16,9 @@ if TYPE_CHECKING:
     from reference.dataset.reader import Dataset
     from reference.declaration import ENERGY_ABOVE_REST, ClosedForm, Form, Invariant, Quantity, Row, StateSpace, Trial
     from reference.family import Comparison, Family, Input, Reported
+    from reference.flow import Flow
+    from reference.flow_families import flow_family
+    from reference.flow_problem import FlowProblem, HamiltonianFlow
     from reference.layout import Coordinate, Group, Layout
     from reference.problem import HamiltonianProblem, Problem, SeparableProblem
     from reference.problems.cycloid.arc import CycloidArc
@@ -44,8 +47,11 @@ __all__ = [
     "CycloidalPendulum",
     "Descent",
     "Family",
+    "Flow",
+    "FlowProblem",
     "Form",
     "Group",
+    "HamiltonianFlow",
     "HamiltonianProblem",
     "Input",
     "Invariant",
@@ -65,6 +71,7 @@ __all__ = [
     "Tunnel",
     "__version__",
     "exact",
+    "flow_family",
     "load",
 ]
 
@@ -75,6 +82,10 @@ _HOMES = {
     "CycloidalPendulum": "reference.problems.cycloid.tautochrone",
     "Descent": "reference.problems.descent.problem",
     "Family": "reference.family",
+    "Flow": "reference.flow",
+    "FlowProblem": "reference.flow_problem",
+    "HamiltonianFlow": "reference.flow_problem",
+    "flow_family": "reference.flow_families",
     "HamiltonianProblem": "reference.problem",
     "LinearPendulum": "reference.problems.pendulum.linear",
     "Pendulum": "reference.problems.pendulum.problem",

@@ -6,9 +6,10 @@ import argparse
 import os
 import sys
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from reference.command.terminal import Parser, one_of, progress_bar, run
+from reference.named import is_own, with_equations
 from reference.names import short
 
 if TYPE_CHECKING:
@@ -24,7 +25,7 @@ GIVEN = "given_"
 
 def command(arguments: Sequence[str] | None = None) -> int:
     """Parse the arguments, run the command they name, return its exit code."""
-    words = sys.argv[1:] if arguments is None else list(arguments)
+    words = with_equations(sys.argv[1:] if arguments is None else arguments)
     asked = _parser(words).parse_args(words)
     return int(asked.run(asked))
 
@@ -91,23 +92,28 @@ def _add_at(commands: argparse._SubParsersAction[Parser], words: Sequence[str]) 
     from reference.command.at import METAVARS
     from reference.problems.families import FAMILIES, find_family
 
-    own = next((word for word in words[1:2] if words[0] == "at" and ":" in word), None)
+    own = next((word for word in words[1:2] if words[0] == "at" and is_own(word)), None)
     known = {family.name: family for family in FAMILIES} if own is None else {own: find_family(own)}
-    at = commands.add_parser("at", help="print proven values at one time, now")
+    told = "print proven values at one time, now"
+    flows = [name for name, family in known.items() if not family.has_closed_form]
+    described = f"{told}: of a family, or of a flow: {', '.join(flows)}, or flow --config FILE.toml"
+    at = commands.add_parser("at", help=told, description=described)
     families = at.add_subparsers(dest="family", metavar="FAMILY", required=True, parser_class=Parser)
     for name, family in known.items():
-        parser = families.add_parser(name, help=family.help)
+        listed: dict[str, Any] = {"help": family.help} if family.has_closed_form else {}
+        parser = families.add_parser(name, **listed, description=family.help)
+        if name not in words[1:2]:
+            continue
         for asked in family.inputs:
             default = "" if asked.default is None else f" (default: {asked.default})"
+            units = f", in {asked.units}" if asked.units not in {"", "1"} else ""
             parser.add_argument(
                 f"--{asked.name}",
                 dest=GIVEN + asked.name,
                 required=asked.default is None and not asked.optional,
                 default=asked.default,
                 metavar=METAVARS[asked.kind],
-                help=(f"{asked.help}, in {asked.units}{default}" if asked.units else f"{asked.help}{default}").replace(
-                    "%", "%%"
-                ),
+                help=f"{asked.help}{units}{default}".replace("%", "%%"),
             )
         parser.add_argument("--digits", default="50", metavar="N", help="significant digits (default: 50)")
         parser.add_argument("--exact", action="store_true", help="take decimals and fractions as written")

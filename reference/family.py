@@ -238,6 +238,13 @@ class Family:
         if comparison.largest < LEAST_N:
             raise ValueError(f"largest of {self.name} is {comparison.largest}; {LEAST_N} or more is accepted.")
 
+    @property
+    def has_closed_form(self) -> bool:
+        """Whether its problems declare their solution; without, their flow is proven."""
+        from reference.problem import Problem
+
+        return getattr(self.problem, "closed_form", None) is not Problem.closed_form
+
     def input(self, name: str) -> Input:
         """The input of this name."""
         return next(wanted for wanted in self.inputs if wanted.name == name)

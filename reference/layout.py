@@ -87,6 +87,7 @@ class Layout:
         statement: the problem in one line: its equation and its start.
         difficulty: how hard it is on an integrator, "lower", "average" or "higher", and why.
         index: labels 0, 1, 2, ... of instances that are in no order by any one of their inputs, as points in a plane.
+        inputs: the exact numbers and starts of a single problem, as texts; "" where coordinates tell them.
 
     Raises:
         ValueError: the path or a name cannot stand in a file, a name is there twice, or a row has no coordinate.
@@ -103,6 +104,7 @@ class Layout:
     statement: str = ""
     difficulty: str = ""
     index: Coordinate | None = None
+    inputs: str = ""
 
     def __post_init__(self) -> None:
         if not PATH.fullmatch(self.path):

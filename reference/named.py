@@ -12,10 +12,41 @@ from typing import TYPE_CHECKING, Any
 from reference.names import short, unknown
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
+    from collections.abc import Callable, Iterator, Sequence
     from types import ModuleType
 
-__all__ = ["named"]
+__all__ = ["EQUATION", "is_own", "named", "with_equations"]
+
+EQUATION = ".toml"
+"""How the name of a file with an equation ends."""
+FLOW, CONFIG = "flow", "--config"
+BEFORE = ("at", "--problem", "--problems", "--family")
+"""After these words, and as the first one, ``flow`` stands for a problem."""
+
+
+def is_own(name: str) -> bool:
+    """Whether a name is of something of the user's: MODULE:NAME, FILE.py:NAME, or FILE.toml of an equation."""
+    return ":" in name or name.endswith(EQUATION)
+
+
+def with_equations(words: Sequence[str]) -> list[str]:
+    """The words of a command line, with FILE.toml in the place of ``flow --config FILE.toml``.
+
+    Raises:
+        ValueError: a file is not named, or not as one of an equation.
+    """
+    found: list[str] = []
+    rest = iter(words)
+    for word in rest:
+        if word != FLOW or (found and found[-1] not in BEFORE):
+            found.append(word)
+            continue
+        option, _, name = next(rest, "").partition("=")
+        name = name or next(rest, "")
+        if option != CONFIG or not name.endswith(EQUATION):
+            raise ValueError(f"flow is an equation of your own; {CONFIG} FILE{EQUATION} behind it tells which.")
+        found.append(name)
+    return found
 
 
 def named(name: str, what: str, example: str, fits: Callable[[Any], bool]) -> Any:

@@ -11,12 +11,14 @@ from typing import TYPE_CHECKING, Any, ClassVar, TypeVar
 from reference.arithmetic.dual import Dual, DualArithmetic
 from reference.arithmetic.exact import exact_array, positive
 from reference.arithmetic.limbs import MAX_BITS, MAX_LIMBS, to_limbs
-from reference.arithmetic.namespaces import MPMATH, NUMPY, Heyoka
+from reference.arithmetic.namespaces import BALL, MPMATH, NUMPY, Heyoka
 from reference.arithmetic.precision import mp
+from reference.arithmetic.rational import RATIONAL, IrrationalError
+from reference.arithmetic.surds import SURD, known, surd
 from reference.certified import Certified
 from reference.names import unknown
 from reference.once import cached_property
-from reference.routes import enclosure, quadrature, taylor
+from reference.routes import enclosure, proven_flow, quadrature, taylor
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
@@ -38,6 +40,10 @@ APART = Fraction(1, 1 << 36)
 """By such a part a neighbour begins elsewhere: far enough for other roundings, too near for other truncation errors."""
 SEEN, STATES = 10, 16
 """Of a motion without a period so many turns or e-foldings of its start, and so many states, are looked at."""
+SPARED_BITS = 30
+"""Bits that a flow may lose of those that guard every decision."""
+SEEN_BITS = 60
+"""So many more bits than it is held against does a flow take that is held against another route."""
 ROUTE_BITS = 8192
 """No route but the enclosure serves what needs more working precision than this."""
 
@@ -296,6 +302,15 @@ class Problem:
         """The solution in one arithmetic with elliptic functions."""
         raise NotImplementedError
 
+    @property
+    def has_closed_form(self) -> bool:
+        """Whether it declares its solution; without, its flow is proven."""
+        return type(self).closed_form is not Problem.closed_form
+
+    def enclosure_form(self) -> Solution:
+        """The solution in balls: the closed form, or the state by the proven flow of its equation where it has none."""
+        return self.closed_form(BALL) if self.has_closed_form else proven_flow.FlowSolution(self)
+
     def chart(self, row: str, count: int, bits: int) -> Solution | None:
         """A solution in balls that is faster for ``count`` arguments, good to about ``bits`` bits; None if none is."""
         del row, count, bits
@@ -324,13 +339,24 @@ class Problem:
         """
         return self.start if row == "state" and argument == 0 else None
 
-    def working_bits(self, arguments: Sequence[Any]) -> int:
-        """Bits that the closed form is expected to lose at these arguments; only speed depends on it.
+    def exact_invariant(self, value: str) -> Fraction | None:
+        """What the method of this name gives at the start where that is rational; None where it is not known to be.
 
-        Of itself those of the latest time.
+        No ball might decide it.
+        """
+        found = _read_at_start(self, value, RATIONAL)
+        found = known(lambda: surd(_read_at_start(self, value, SURD)).rational) if found is None else found
+        return Fraction(found) if isinstance(found, (int, Fraction)) else None
+
+    def working_bits(self, arguments: Sequence[Any]) -> int:
+        """Bits that the solution in balls is expected to lose at these arguments; only speed depends on it.
+
+        Of itself those of the latest time, or what the flow is seen to lose until then.
         """
         latest = max((abs(t) for t in arguments if isinstance(t, Fraction)), default=Fraction(0))
-        return int(latest).bit_length()
+        if self.has_closed_form:
+            return int(latest).bit_length()
+        return max(0, proven_flow.lost(self, latest) - SPARED_BITS)
 
     def by_route(
         self, route: str, row: str, arguments: Sequence[Any], digits: int
@@ -341,8 +367,13 @@ class Problem:
             ValueError: an argument is outside of the row's domain.
         """
         arguments = self.arguments(row, arguments)
+        if not self.has_closed_form:
+            latest = max((abs(t) for t in arguments if isinstance(t, Fraction)), default=Fraction(0))
+            proven_flow.see(self, latest, int(digits * 3.33) + SEEN_BITS)
         bits = int(digits * 3.33) + 2 * self.working_bits(arguments) + 30
         if route in dict(self.row(row).lacks) or bits > ROUTE_BITS:
+            return None
+        if route == "quadrature" and not self.has_closed_form:
             return None
         if route == "quadrature":
             return quadrature.rows(self.quadrature_form, row, arguments, bits)
@@ -556,6 +587,14 @@ class HamiltonianProblem(Problem):
         size = len(positions)
         momenta = [m.number(value) for value in self.start[size:]]
         return tuple(-slope for slope in self._slopes(m, t, positions, momenta, p)[:size])
+
+
+def _read_at_start(problem: Problem, value: str, m: Any) -> Any:
+    """A method of a problem at its start, in an arithmetic; None where it is not known to be rational in it."""
+    try:
+        return getattr(problem, value)(m, problem.start_in(m), problem.parameters_in(m))
+    except IrrationalError:
+        return None
 
 
 FAR, NEAR = (1.1, 0.9, 1.2), (0.05, -0.07, 0.03)

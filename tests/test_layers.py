@@ -7,6 +7,7 @@ import importlib
 import inspect
 import subprocess
 import sys
+from functools import cache
 from graphlib import CycleError, TopologicalSorter
 from pathlib import Path
 
@@ -28,6 +29,7 @@ def module_name(path: Path) -> str:
 MODULES = [module_name(path) for path in SOURCES if path.name != "__main__.py"]
 
 
+@cache
 def imports(path: Path) -> set[str]:
     """The absolute names of all modules that a file imports, wherever it does."""
     found: set[str] = set()
@@ -115,6 +117,9 @@ LAYERS = (
     ("reference.consistency",),
     ("reference.layout",),
     ("reference.family",),
+    ("reference.flow_problem",),
+    ("reference.flow_families",),
+    ("reference.flow",),
     ("reference.command",),
     ("reference.problems",),
     ("reference.dataset",),

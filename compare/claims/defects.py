@@ -11,7 +11,7 @@ import numpy as np
 from compare.claims.engine import Steps, Traced, trial_states
 from compare.claims.frames import MisuseError
 from compare.march.precision import precision
-from compare.measure.defects import canonical_places, symplectic_change, symplectic_form
+from compare.measure.defects import canonical_places, largest_change, symplectic_changes, symplectic_form
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -136,7 +136,7 @@ def symplecticity(marcher: Marcher, h: float, evidence: Evidence) -> Defect:
             mass = form(after)[0, 1] / form(y)[0, 1]
             defects = np.linalg.det(np.moveaxis(slopes, -1, 0)) * mass - 1
         else:
-            defects = symplectic_change(slopes, form(y), form(after))[0]
+            defects = largest_change(symplectic_changes(slopes, form(y), form(after))[0])
     _hold_finite(defects, sizes)
     return _judged(_largest(np.abs(defects)), defects, h, evidence)
 

@@ -34,9 +34,14 @@ def _blocks(found: Check) -> Iterator[Block]:
     yield Sentence(f"{found.name}: {found.verdict}.")
     run = "" if found.engine == "compiled" else "run "
     yield Sentence(f"{found.name}, {run}{RUN[found.engine]}, on {found.problem}.")
-    yield _table("errors", "Errors over one period", found.still)
+    yield _table("errors", f"Errors{_until(found.still)}", found.still)
     if found.swinging is not None:
         yield _table("swinging", "Errors seen from a swinging frame, where the time enters", found.swinging)
+
+
+def _until(order: Order) -> str:
+    """Up to when the errors are: about a period, where the motion has one."""
+    return f" up to t = {order.cells[0].n * order.cells[0].h:.3g}" if order.cells else ""
 
 
 def _table(name: str, title: str, order: Order) -> Table:

@@ -29,6 +29,7 @@ from compare.files.written import of_value
 from compare.show.render import render
 from reference.arithmetic.exact import NO_SEQUENCES
 from reference.command import at
+from reference.named import is_own
 from reference.names import unknown
 from reference.problems.families import FAMILIES, find_family
 
@@ -243,7 +244,7 @@ def _problem(asked: Submission) -> Problem:
         ValueError: there is no such family, an input of it is missing or is none of its, or one is outside its range.
     """
     family = find_family(asked.family)
-    if family not in families() and ":" not in asked.family:
+    if family not in families() and not is_own(asked.family):
         raise ValueError(unknown("problem", asked.family, [known.name for known in families()]))
     accepted = [wanted for wanted in family.inputs if not wanted.over]
     for name in asked.inputs:

@@ -9,12 +9,12 @@ import numpy as np
 from compare.methods.order.algebraic import Q
 from reference.arithmetic.compiler import hy
 from reference.arithmetic.dual import Dual, DualArithmetic
-from reference.arithmetic.namespaces import BALL, NUMPY, Heyoka
+from reference.arithmetic.namespaces import BALL, NUMPY, Heyoka, Term
 from reference.arithmetic.series import jet
 from reference.problem import NO_TIME
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Iterable, Sequence
     from fractions import Fraction
 
     from flint import arb
@@ -75,7 +75,7 @@ class BoundSystem:
         self._problem: Any = problem
         self._m = m
         self._duals = DualArithmetic(m, self.dimension)
-        self._parameters = parameters
+        self._parameters = dict(zip(parameters, self._read(parameters.values()), strict=True))
         self._fmt = fmt
         self._numbers: dict[Coefficient | Enclosed, Any] = {}
         self.tiny = self.number(fmt.tiny)
@@ -86,17 +86,27 @@ class BoundSystem:
             self._numbers[value] = hy.expression(rounded) if isinstance(self._m, Heyoka) else rounded
         return self._numbers[value]
 
+    def _read(self, values: Iterable[Any]) -> Sequence[Any]:
+        """Numbers as the equation reads them: symbols as terms."""
+        return self._m.terms(values) if isinstance(self._m, Heyoka) else tuple(values)
+
     def derivative(self, y: State) -> State:
-        return tuple(self._problem.derivative(self._m, NO_TIME, y, self._parameters))
+        return _plain(self._problem.derivative(self._m, NO_TIME, self._read(y), self._parameters))
 
     def velocity(self, momenta: State) -> State:
-        return tuple(self._problem.velocity(self._m, momenta, self._parameters))
+        return _plain(self._problem.velocity(self._m, self._read(momenta), self._parameters))
 
     def force(self, positions: State) -> State:
-        return tuple(self._problem.force(self._m, NO_TIME, positions, self._parameters))
+        return _plain(self._problem.force(self._m, NO_TIME, self._read(positions), self._parameters))
 
     def jet(self, y: State, order: int) -> list[State]:
-        return jet(self._m, lambda m, state: self._problem.derivative(m, NO_TIME, state, self._parameters), y, order)
+        found = jet(
+            self._m,
+            lambda m, state: self._problem.derivative(m, NO_TIME, state, self._parameters),
+            self._read(y),
+            order,
+        )
+        return list(map(_plain, found))
 
     @property
     def initial_invariant(self) -> Any:
@@ -109,7 +119,8 @@ class BoundSystem:
     def invariants(self, y: State) -> tuple[Any, ...]:
         """Every invariant at a state."""
         declared = self._problem.invariants
-        return tuple(getattr(self._problem, one.value)(self._m, y, self._parameters) for one in declared)
+        state = self._read(y)
+        return _plain(getattr(self._problem, one.value)(self._m, state, self._parameters) for one in declared)
 
     def jacobian(self, y: State) -> tuple[State, ...]:
         return tuple(
@@ -127,18 +138,23 @@ class BoundSystem:
         return tuple(map(self._slopes, found))
 
     def _variables(self, y: State) -> list[Dual]:
-        return [self._duals.variable(value, place) for place, value in enumerate(y)]
+        return [self._duals.variable(value, place) for place, value in enumerate(self._read(y))]
 
     def _slopes(self, found: Any) -> State:
         """The slopes of a number by each component, the integer 0 for one that is always zero."""
         if not isinstance(found, Dual):
             return (0,) * self.dimension
-        return tuple(0 if self._is_zero(slope) else slope for slope in found.slopes)
+        return tuple(0 if self._is_zero(slope) else slope for slope in _plain(found.slopes))
 
     def _is_zero(self, slope: Any) -> bool:
         if isinstance(slope, hy.expression):
             return slope in (hy.expression(0.0), hy.expression(self._fmt.number(Q(0))))
         return np.ndim(slope) == 0 and bool(slope == 0)
+
+
+def _plain(values: Iterable[Any]) -> State:
+    """What an equation makes of what it reads: expressions of terms, and other numbers as they are."""
+    return tuple(value.expression if isinstance(value, Term) else value for value in values)
 
 
 def plain_system(problem: Problem, fmt: Precision, parameters: np.ndarray) -> BoundSystem:

@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from fractions import Fraction
 from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
 from flint import arb
 
 from reference.arithmetic.namespaces import BALL
-from reference.arithmetic.rational import RATIONAL, IrrationalError
 
 if TYPE_CHECKING:
+    from fractions import Fraction
+
     import numpy as np
 
     from compare.march.precision import Precision
@@ -72,11 +72,7 @@ class StartInvariant:
 
     def exact(self) -> Fraction | None:
         """The value itself where it is rational, which no ball might decide; None where it is not known to be."""
-        try:
-            found = self._at(RATIONAL)
-        except IrrationalError:
-            return None
-        return Fraction(found) if isinstance(found, (int, Fraction)) else None
+        return self.problem.exact_invariant(self.value)
 
     def _at(self, m: Any) -> Any:
         start = self.problem.start_in(m)

@@ -67,7 +67,7 @@ class Precision:
         if bounds is None:
             return None
         low, high = (rounded(end, bounds[2], self.bits) for end in bounds[:2])
-        return low if low == high else None
+        return low if _value(low) == _value(high) else None
 
     def _scalar(self, mantissa: int, exponent: int) -> Any:
         if self.bits <= 53:
@@ -116,6 +116,12 @@ class Precision:
     def compiler_options(self) -> dict[str, Any]:
         """What heyoka's compiler needs to know; calls of MPFR gain nothing from optimization, which takes long."""
         return {"fp_type": self.type, **({"prec": self.bits, "opt_level": 0} if self.type is hy.real else {})}
+
+
+def _value(parts: tuple[int, int]) -> Fraction:
+    """The number: just below a power of two, what is rounded up to that has another mantissa than the power itself."""
+    mantissa, exponent = parts
+    return mantissa * Fraction(2) ** exponent
 
 
 FORMATS = (

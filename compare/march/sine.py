@@ -30,7 +30,7 @@ class LaneArithmetic(Heyoka):
     """heyoka's symbols with the sine of this module."""
 
     def sin(self, x: Any) -> Any:
-        return sine(x)
+        return self._of(sine, x)
 
 
 def sine(x: Any) -> Any:

@@ -18,6 +18,8 @@ __all__ = ["case_of"]
 
 ENOUGH_BITS = 64
 """Working precision at which it is seen whether there are orbits."""
+FEW = 4
+"""So many positions are named in the title of a table."""
 
 
 def case_of(problem: Problem) -> Case:
@@ -79,8 +81,13 @@ def _error(problem: Problem) -> str:
     names = problem.space.positions
     absolute = problem.space.scale == "units"
     if len(names) > 1:
-        return f"error of {' or '.join(names)}" + ("" if absolute else " relative to its largest value")
+        return f"error of {_any_of(names)}" + ("" if absolute else " relative to its largest value")
     return f"|{names[0]} - exact|" + ("" if absolute else f"/max |{names[0]}|")
+
+
+def _any_of(names: tuple[str, ...]) -> str:
+    """One of some names, or of very many."""
+    return " or ".join(names) if len(names) <= FEW else f"{', '.join(names[:2])}, ... or {names[-1]}"
 
 
 def _absolute(problem: Problem) -> str:
@@ -88,7 +95,7 @@ def _absolute(problem: Problem) -> str:
     names = problem.space.positions
     units = {_units(problem, name) for name in names}
     shared = f", in {next(iter(units))}" if len(units) == 1 and units != {""} else ""
-    return f"|{names[0]} - exact|{shared}" if len(names) == 1 else f"error of {' or '.join(names)}{shared}"
+    return f"|{names[0]} - exact|{shared}" if len(names) == 1 else f"error of {_any_of(names)}{shared}"
 
 
 def _lacks(problem: Problem) -> dict[str, str]:

@@ -33,7 +33,7 @@ if TYPE_CHECKING:
     from compare.methods.kinds.one_step import Method
     from reference.problem import Problem
 
-__all__ = ["canonical_places", "defects", "symplectic_change", "symplectic_form"]
+__all__ = ["canonical_places", "defects", "largest_change", "symplectic_changes", "symplectic_form"]
 
 STATES = 16
 """States of the exact motion at which the area is measured."""
@@ -172,24 +172,24 @@ def _form_defect(step: Any, form: Any, run: Run) -> FormDefect:
     near = states * fmt.number(1 + 2 * fmt.exact_epsilon)
     (defects, products), (others, _) = (_changes(step, form, course, parameters, y) for y in (states, near))
     roundings = fmt.epsilon * (1 + run.march.evaluations / course.n) * products
-    apart = np.abs(defects - others)
+    apart = np.max(np.abs(defects - others), axis=0)
     return FormDefect(float(np.max(np.abs(defects))), float(np.max(np.maximum(roundings, FURTHER * apart))))
 
 
 def _changes(
     step: Any, form: Any, course: Course, parameters: np.ndarray, states: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
-    """(S' W S - W)/|W| at each state, its largest entry, and the sum of the sizes of its products."""
+    """(S' W S - W)/|W| at each state, entry by entry, and the sum of the sizes of its products."""
     size = 2 * len(course.problem.space.pairs)
     found = step(states, parameters)
     after, entries, changes = np.split(found, [len(states), len(states) + size**2])
     if not converged(float(np.max(np.abs(changes), initial=0.0)), after, states, course.fmt):
         after = np.full_like(after, np.nan)
-    return symplectic_change(entries.reshape(size, size, -1), form(states), form(after))
+    return symplectic_changes(entries.reshape(size, size, -1), form(states), form(after))
 
 
-def symplectic_change(slopes: np.ndarray, before: np.ndarray, after: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Of (S' W S - W)/|W| the largest entry with its sign, and the sum of the sizes of its products: [lanes] each.
+def symplectic_changes(slopes: np.ndarray, before: np.ndarray, after: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """(S' W S - W)/|W|, [entries, lanes], and the largest sum of the sizes of an entry's products, [lanes].
 
     It is antisymmetric: what is above its diagonal is all of it.
 
@@ -200,9 +200,14 @@ def symplectic_change(slopes: np.ndarray, before: np.ndarray, after: np.ndarray)
     """
     size, above = np.max(np.abs(before), axis=(0, 1)), np.triu_indices(len(slopes), 1)
     changes = (_congruent(slopes, after) - before)[above] / size
-    largest = np.take_along_axis(changes, np.argmax(np.abs(changes), axis=0)[None], axis=0)[0]
     products = np.max(_congruent(np.abs(slopes), np.abs(after))[above], axis=0) / size
-    return largest.astype(np.float64), products.astype(np.float64)
+    return changes.astype(np.float64), products.astype(np.float64)
+
+
+def largest_change(changes: np.ndarray) -> np.ndarray:
+    """Of changes [entries, lanes] the largest, with its sign; which entry that is may differ from state to state."""
+    found: np.ndarray = np.take_along_axis(changes, np.argmax(np.abs(changes), axis=0)[None], axis=0)[0]
+    return found
 
 
 def _canonical_form(count: int, lanes: int, dtype: Any = np.float64) -> np.ndarray:

@@ -22,7 +22,8 @@ NONE = ("none",)
 def add_options(parser: argparse.ArgumentParser) -> None:
     """Add them to a parser."""
     several: dict[str, Any] = {"action": "append", "metavar": "A,B"}
-    parser.add_argument("--problems", **several, help="families of problems (default all); may repeat")
+    told = "families of problems (default: those with a closed form; flows by their names); may repeat"
+    parser.add_argument("--problems", **several, help=told)
     parser.add_argument(
         "--amplitudes",
         **several,

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from reference.named import is_own
 from reference.names import unknown
 from reference.problems.families import FAMILIES, find_family
 
@@ -17,7 +18,7 @@ Amplitude = float | str
 
 
 def reported(names: list[str] | None = None) -> dict[str, Reported]:
-    """What is reported, by what a worker finds it by: all of the families', or those of these names.
+    """What is reported, by what a worker finds it by: of these names, or of all families with a closed form.
 
     A name is that of one kind of problems, or MODULE:NAME or FILE.py:NAME of a family of the user's own.
 
@@ -25,12 +26,12 @@ def reported(names: list[str] | None = None) -> dict[str, Reported]:
         ValueError: there is none of a name.
         FileNotFoundError, ImportError: the user's module that it names cannot be imported.
     """
-    known = {one.name: one for family in FAMILIES for one in family.reported}
     if names is None:
-        return known
+        return {one.name: one for family in FAMILIES if family.has_closed_form for one in family.reported}
+    known = {one.name: one for family in FAMILIES for one in family.reported}
     found: dict[str, Reported] = {}
     for name in names:
-        if ":" in name:
+        if is_own(name):
             found |= {f"{name}:{one.name}": one for one in find_family(name).reported}
         elif name in known:
             found[name] = known[name]

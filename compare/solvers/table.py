@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from compare.show.study_page import Columns
     from compare.solvers.records import SolverStudy
 
-__all__ = ["COLUMNS", "page", "tables"]
+__all__ = ["COLUMNS", "OTHER", "TOLERANCES", "page", "tables"]
 
 COLUMNS: Columns = {
     "solvers": field_names(SolverEntry),

@@ -73,7 +73,9 @@ class Ball:
 
     @staticmethod
     def power(x: arb, exponent: Fraction) -> arb:
-        """x^exponent, x > 0; also of x = 0 where the exponent is positive."""
+        """x^exponent, x > 0; also of x = 0 where the exponent is positive, and of any x where it is whole."""
+        if exponent.denominator == 1:
+            return x**exponent.numerator
         if x.is_zero() and exponent > 0:
             return arb(0)
         return x ** arb(fmpq(exponent.numerator, exponent.denominator)) if x > 0 else arb.nan()

@@ -2,9 +2,10 @@
 
     Expression.parse("2*(x/pi)**4", "x")(m, x)
 
-is the formula's value in the arithmetic ``m``.  Accepted are numbers, taken exactly as they are written, pi, one
-variable, + - * / **, brackets and the functions of FUNCTIONS; a power is a rational number.  Python's own parser reads
-the text, and nothing of what it read is ever run.  Where a formula is a real number, ``domains`` proves.
+is the value in the arithmetic ``m``; several variables are given by name.  Accepted are numbers, taken exactly
+as they are written, pi, the variables, + - * / **, brackets and the functions of FUNCTIONS; a power is a rational
+number.  Python's own parser reads the text, and nothing of what it read is ever run.  Where a formula is a real number,
+``domains`` proves.
 """
 
 from __future__ import annotations
@@ -17,7 +18,7 @@ from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
 from reference.arithmetic.exact import as_number, exact, spelled
-from reference.arithmetic.terms import Function, Negative, Number, Operation, Pi, Power, Term, Variable
+from reference.arithmetic.terms import Function, Named, Negative, Number, Operation, Pi, Power, Term, Variable
 from reference.names import short, unknown
 
 if TYPE_CHECKING:
@@ -47,7 +48,7 @@ Terms = tuple[Term, ...]
 
 @dataclass(frozen=True, repr=False)
 class Expression:
-    """A formula of at most one variable.
+    """A formula of no variable, of one or of several.
 
     Attributes:
         text: as it was written; it reads back as the same formula.
@@ -58,11 +59,11 @@ class Expression:
     terms: Terms
 
     @classmethod
-    def parse(cls, text: str, variable: str = "", what: str = "formula") -> Expression:
+    def parse(cls, text: str, variable: str | tuple[str, ...] = "", what: str = "formula") -> Expression:
         """The formula that ``text`` spells; without a variable, a constant.
 
         Raises:
-            ValueError: it is no formula of this variable; ``what`` names it in the message.
+            ValueError: it is no formula of this variable, or of these; ``what`` names it in the message.
         """
         return cls(text.strip(), _Reader(text.strip(), variable, what).terms())
 
@@ -84,8 +85,13 @@ class Expression:
         number = _number(self.terms)
         return repr(self.text if number is None else as_number(number))
 
+    @property
+    def names(self) -> frozenset[str]:
+        """The variables that it names, of several."""
+        return frozenset(term.name for term in self.terms if isinstance(term, Named))
+
     def __call__(self, m: ElementaryArithmetic, x: Any = None) -> Any:
-        """The value in an arithmetic, where the variable has the value ``x``."""
+        """The value in an arithmetic where the variable is ``x``, or several are those of ``x`` by name."""
         values: list[Any] = []
         for term in self.terms:
             count = len(values) - term.arity
@@ -101,7 +107,7 @@ def _number(terms: Terms) -> Fraction | None:
 class _Reader:
     """Turns Python's syntax tree of one text into a formula, and refuses what has no place in one."""
 
-    def __init__(self, text: str, variable: str, what: str) -> None:
+    def __init__(self, text: str, variable: str | tuple[str, ...], what: str) -> None:
         self._text, self._variable, self._what = text, variable, what
 
     def terms(self) -> Terms:
@@ -163,10 +169,11 @@ class _Reader:
     def _name(self, name: str) -> Term:
         if name == "pi":
             return Pi(name)
-        if name != self._variable or not name:
-            known = [name for name in (self._variable, "pi") if name]
-            raise ValueError(unknown(f"{self._what} '{short(self._text)}': the name", name, known, FUNCTIONS))
-        return Variable(name)
+        several = isinstance(self._variable, tuple)
+        names = [one for one in (self._variable if isinstance(self._variable, tuple) else (self._variable,)) if one]
+        if name not in names:
+            raise ValueError(unknown(f"{self._what} '{short(self._text)}': the name", name, [*names, "pi"], FUNCTIONS))
+        return Named(name, name) if several else Variable(name)
 
     def _function(self, tree: ast.Call, name: str) -> Term:
         if name not in FUNCTIONS:

@@ -7,6 +7,8 @@ arithmetic has.  ``m.number(q)`` turns an exact rational into one of them, round
 from __future__ import annotations
 
 import math
+import operator
+from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
 from reference.arithmetic.balls import BALL, Ball, ComplexBall
@@ -15,8 +17,7 @@ from reference.arithmetic.elliptic import MpmathElliptic
 from reference.arithmetic.precision import mp
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-    from fractions import Fraction
+    from collections.abc import Callable, Iterable
 
 __all__ = [
     "BALL",
@@ -27,6 +28,7 @@ __all__ = [
     "Heyoka",
     "Mpmath",
     "Numpy",
+    "Term",
 ]
 
 
@@ -108,7 +110,11 @@ class Numpy:
 
 
 class Heyoka:
-    """heyoka's symbolic expressions; ``number`` gives constants of the floating-point type that will run them."""
+    """heyoka's symbolic expressions; ``number`` gives constants of the floating-point type that will run them.
+
+    heyoka itself takes Python's numbers in an expression for doubles, x/3 for 0.333... x.  Expressions that an equation
+    reads as ``terms`` take them as constants of the type.
+    """
 
     def __init__(self, number: Any = float) -> None:
         from reference.arithmetic.compiler import hy
@@ -119,51 +125,109 @@ class Heyoka:
     def number(self, value: Fraction) -> Any:
         return self._number(value)
 
-    def _term(self, x: Any) -> Any:
+    def terms(self, expressions: Iterable[Any]) -> list[Any]:
+        """Expressions as an equation reads them."""
+        return [Term(self, x) for x in expressions]
+
+    def expression(self, x: Any) -> Any:
         """An expression, of a constant too."""
+        if isinstance(x, Term):
+            return x.expression
         return x if isinstance(x, self._hy.expression) else self._hy.expression(x)
 
+    def constant(self, value: Any) -> Any:
+        """A constant of the type; an expression, or a number of that type, as it is."""
+        if isinstance(value, Term):
+            return value.expression
+        return self._number(Fraction(value)) if isinstance(value, (int, float, Fraction)) else value
+
+    def _of(self, function: Callable[[Any], Any], x: Any) -> Any:
+        found = function(self.expression(x))
+        return Term(self, found) if isinstance(x, Term) else found
+
     def sin(self, x: Any) -> Any:
-        return self._hy.sin(self._term(x))
+        return self._of(self._hy.sin, x)
 
     def cos(self, x: Any) -> Any:
-        return self._hy.cos(self._term(x))
+        return self._of(self._hy.cos, x)
 
     def tan(self, x: Any) -> Any:
-        return self._hy.tan(self._term(x))
+        return self._of(self._hy.tan, x)
 
     def asin(self, x: Any) -> Any:
-        return self._hy.asin(self._term(x))
+        return self._of(self._hy.asin, x)
 
     def acos(self, x: Any) -> Any:
-        return self._hy.acos(self._term(x))
+        return self._of(self._hy.acos, x)
 
     def atan(self, x: Any) -> Any:
-        return self._hy.atan(self._term(x))
+        return self._of(self._hy.atan, x)
 
     def sinh(self, x: Any) -> Any:
-        return self._hy.sinh(self._term(x))
+        return self._of(self._hy.sinh, x)
 
     def cosh(self, x: Any) -> Any:
-        return self._hy.cosh(self._term(x))
+        return self._of(self._hy.cosh, x)
 
     def tanh(self, x: Any) -> Any:
-        return self._hy.tanh(self._term(x))
+        return self._of(self._hy.tanh, x)
 
     def exp(self, x: Any) -> Any:
-        return self._hy.exp(self._term(x))
+        return self._of(self._hy.exp, x)
 
     def log(self, x: Any) -> Any:
-        return self._hy.log(self._term(x))
+        return self._of(self._hy.log, x)
 
     def sqrt(self, x: Any) -> Any:
-        return self._hy.sqrt(self._term(x))
+        return self._of(self._hy.sqrt, x)
 
     def pi(self) -> Any:
         return self._hy.pi
 
     def power(self, x: Any, exponent: Fraction) -> Any:
-        return self._term(x) ** self._number(exponent)
+        return self._of(lambda term: term ** self._number(exponent), x)
+
+
+class Term:
+    """An expression of heyoka's whose operands are constants of the type of an arithmetic."""
+
+    __array_ufunc__ = None
+    """NumPy's numbers leave arithmetic with terms to the terms, and these to duals and series."""
+
+    def __init__(self, m: Heyoka, expression: Any) -> None:
+        self._m, self.expression = m, expression
+
+    def _joined(self, operation: Callable[[Any, Any], Any], other: Any) -> Any:
+        if not isinstance(other, Term) and getattr(other, "__array_ufunc__", self) is None:
+            return NotImplemented
+        return Term(self._m, operation(self.expression, self._m.constant(other)))
+
+    def __add__(self, other: Any) -> Any:
+        return self._joined(operator.add, other)
+
+    def __sub__(self, other: Any) -> Any:
+        return self._joined(operator.sub, other)
+
+    def __rsub__(self, other: Any) -> Any:
+        return self._joined(lambda own, its: its - own, other)
+
+    def __mul__(self, other: Any) -> Any:
+        return self._joined(operator.mul, other)
+
+    def __truediv__(self, other: Any) -> Any:
+        return self._joined(operator.truediv, other)
+
+    def __rtruediv__(self, other: Any) -> Any:
+        return self._joined(lambda own, its: its / own, other)
+
+    def __neg__(self) -> Term:
+        return Term(self._m, -self.expression)
+
+    def __pow__(self, power: int) -> Term:
+        return Term(self._m, self.expression**power)
+
+    __radd__ = __add__
+    __rmul__ = __mul__
 
 
 MPMATH = Mpmath()

@@ -11,13 +11,13 @@ from __future__ import annotations
 
 from fractions import Fraction
 from functools import reduce
-from operator import add
+from operator import add, mul
 from typing import TYPE_CHECKING, Any
 
 from reference.once import cached_property
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Sequence
+    from collections.abc import Callable, Sequence
 
     from reference.arithmetic.protocols import ElementaryArithmetic
 
@@ -50,13 +50,33 @@ class Series:
     def __init__(self, tape: list[Series], coefficient: Callable[[int], Any]) -> None:
         self._tape, self._coefficient = tape, coefficient
         self._known: list[Any] = []
+        self._sparse = False
         tape.append(self)
 
     def term(self, k: int) -> Any:
         """x[k]; the integer 0 where it is zero whatever the numbers are."""
-        while len(self._known) <= k:
-            self._known.append(self._coefficient(len(self._known)))
-        return self._known[k]
+        known = self._known
+        while len(known) <= k:
+            found = self._coefficient(len(known))
+            if type(found) is int and found == 0:
+                self._sparse = True
+            known.append(found)
+        return known[k]
+
+    def times(self, other: Series, k: int, low: int, high: int) -> Any:
+        """sum_j x[j] y[k - j] over low <= j < high: over 0 <= j <= k, the coefficient of the product."""
+        if low >= high:
+            return 0
+        if len(self._known) < high:
+            self.term(high - 1)
+        if len(other._known) <= k - low:
+            other.term(k - low)
+        mine, its = self._known[low:high], other._known[k - high + 1 : k - low + 1]
+        if self._sparse or other._sparse:
+            products = (_times(*pair) for pair in zip(mine, reversed(its), strict=True))
+            terms = [product for product in products if not _nothing(product)]
+            return reduce(add, terms) if terms else 0
+        return reduce(add, map(mul, mine, reversed(its)))
 
     @cached_property
     def slope(self) -> Series:
@@ -87,7 +107,7 @@ class Series:
 
     def __mul__(self, other: Any) -> Series:
         if isinstance(other, Series):
-            return self._made(lambda k: _convolved(self, other, k, range(k + 1)))
+            return self._made(lambda k: self.times(other, k, 0, k + 1))
         return self._made(lambda k: _times(self.term(k), other))
 
     def __truediv__(self, other: Any) -> Series:
@@ -112,18 +132,11 @@ class Series:
     __rmul__ = __mul__
 
 
-def _convolved(a: Series, b: Series, k: int, places: Iterable[int]) -> Any:
-    """sum_j a[j] b[k - j] over some places j: over 0 ... k, the coefficient of the product."""
-    products = (_times(a.term(j), b.term(k - j)) for j in places)
-    terms = [product for product in products if not _nothing(product)]
-    return reduce(add, terms) if terms else 0
-
-
 def _quotient(a: Series, b: Series) -> Series:
     """q = a/b from q b = a:  q[k] = (a[k] - sum_{j=1}^k b[j] q[k-j])/b[0]."""
     q = Series(
         b._tape,  # noqa: SLF001
-        lambda k: _over(a.term(k) - _convolved(b, q, k, range(1, k + 1)), b.term(0)),
+        lambda k: _over(a.term(k) - b.times(q, k, 1, k + 1), b.term(0)),
     )
     return q
 
@@ -138,6 +151,7 @@ class SeriesArithmetic:
         self.m = m
         self.tape: list[Series] = []
         self._circles: dict[tuple[str, Series], tuple[Series, Series]] = {}
+        self._parts: dict[int, Any] = {}
 
     def number(self, value: Fraction) -> Any:
         return self.m.number(value)
@@ -151,13 +165,15 @@ class SeriesArithmetic:
 
     def part(self, x: Any, k: int) -> Any:
         """x/k."""
-        return _times(x, self.m.number(Fraction(1, k))) if k > 1 else x
+        if k < 2 or _nothing(x):
+            return x
+        if k not in self._parts:
+            self._parts[k] = self.m.number(Fraction(1, k))
+        return x * self._parts[k]
 
     def _grown(self, first: Callable[[], Any], slope: Callable[[], Series], x: Series) -> Series:
         """The series that starts with ``first`` and has the derivative slope x'."""
-        return Series(
-            self.tape, lambda k: self.part(_convolved(slope(), x.slope, k - 1, range(k)), k) if k else first()
-        )
+        return Series(self.tape, lambda k: self.part(slope().times(x.slope, k - 1, 0, k), k) if k else first())
 
     def _of(self, x: Any, function: Callable[[Any], Any], slope: Callable[[Series, Series], Any]) -> Any:
         """A function of a series, with slope(x, function(x)) its derivative; of a constant, a constant."""
@@ -217,7 +233,7 @@ class SeriesArithmetic:
         def coefficient(k: int) -> Any:
             if k == 0:
                 return self.m.sqrt(x.term(0))
-            return _over(x.term(k) - _convolved(root, root, k, range(1, k)), 2 * root.term(0))
+            return _over(x.term(k) - root.times(root, k, 1, k), 2 * root.term(0))
 
         root = Series(self.tape, coefficient)
         return root
@@ -230,9 +246,9 @@ class SeriesArithmetic:
         def coefficient(k: int) -> Any:
             if k == 0:
                 return self.m.power(x.term(0), exponent)
-            moved = _convolved(x.slope, found, k - 1, range(k))
+            moved = x.slope.times(found, k - 1, 0, k)
             scaled = _times(moved, self.m.number((1 + exponent) / k))
-            return _over(scaled - _convolved(x, found, k, range(1, k + 1)), x.term(0))
+            return _over(scaled - x.times(found, k, 1, k + 1), x.term(0))
 
         found = Series(self.tape, coefficient)
         return found

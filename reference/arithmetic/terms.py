@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
     from reference.arithmetic.protocols import ElementaryArithmetic
 
-__all__ = ["Function", "Negative", "Number", "Operation", "Pi", "Power", "Term", "Variable"]
+__all__ = ["Function", "Named", "Negative", "Number", "Operation", "Pi", "Power", "Term", "Variable"]
 
 
 @dataclass(frozen=True)
@@ -63,6 +63,17 @@ class Variable(Term):
     def of(self, m: ElementaryArithmetic, x: Any, *values: Any) -> Any:
         del m, values
         return x
+
+
+@dataclass(frozen=True)
+class Named(Term):
+    """One of several variables, of which the formula is given the values by name."""
+
+    name: str
+
+    def of(self, m: ElementaryArithmetic, x: Any, *values: Any) -> Any:
+        del m, values
+        return x[self.name]
 
 
 @dataclass(frozen=True)

@@ -120,6 +120,9 @@ def quantities(family: Family, inputs: Mapping[str, Any]) -> list[Certified]:
     for asked in family.inputs:
         if asked.over in arguments and asked.over not in answered:
             raise ValueError(f"--{asked.name} asks for nothing that {problem!r} has.")
+    if not found:
+        names = " or ".join(f"--{asked.name}" for asked in family.inputs if asked.over)
+        raise ValueError(f"nothing is asked of {problem!r}; {names} is accepted.")
     return found
 
 

@@ -8,6 +8,7 @@ import io
 import os
 import re
 import sys
+import textwrap
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any, NoReturn
 
@@ -28,6 +29,15 @@ STREAMS = 3
 """Standard input, output and error have the numbers below this one."""
 
 
+class _Whole(argparse.HelpFormatter):
+    """Help in whose paragraphs no name is parted at a hyphen."""
+
+    def _fill_text(self, text: str, width: int, indent: str) -> str:
+        return textwrap.fill(
+            " ".join(text.split()), width, initial_indent=indent, subsequent_indent=indent, break_on_hyphens=False
+        )
+
+
 class Parser(argparse.ArgumentParser):
     """An argument parser whose errors are one sentence with the nearest valid names, without the usage.
 
@@ -35,7 +45,7 @@ class Parser(argparse.ArgumentParser):
     """
 
     def __init__(self, *args: Any, **kwargs: Any) -> None:
-        super().__init__(*args, **{"allow_abbrev": False, **kwargs})
+        super().__init__(*args, **{"allow_abbrev": False, "formatter_class": _Whole, **kwargs})
         self._negative_number_matcher = SIGNED  # argparse's own knows -1 and -1.5 only
 
     def add_argument(self, *words: Any, **told: Any) -> argparse.Action:

@@ -13,6 +13,7 @@ import re
 import zipfile
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
+from itertools import groupby
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -24,7 +25,7 @@ from reference.routes import enclosure
 from reference.routes.agreement import ROUTES, agreement
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
+    from collections.abc import Iterable, Iterator, Sequence
     from pathlib import Path
 
     from reference.command.marked import Marked
@@ -39,11 +40,13 @@ __all__ = [
     "Result",
     "compare",
     "compute",
+    "compute_all",
     "decimals",
     "partial",
     "place_of",
     "prove",
     "require_portable",
+    "together",
 ]
 
 IDENTITY = re.compile(r"[0-9a-f]{64}")
@@ -185,6 +188,20 @@ class Result:
                 return cls(found["limbs"], decimals, found["digits"], found["checked"])
         except (ValueError, KeyError, zipfile.BadZipFile):
             return None
+
+
+def together(blocks: Iterable[Block]) -> Iterator[tuple[Block, ...]]:
+    """The blocks as tasks: those of a group with texts for inputs together, which share a flow, others one by one."""
+    for shared, several in groupby(blocks, lambda block: block.layout.path if block.layout.inputs else ""):
+        if shared:
+            yield tuple(several)
+        else:
+            yield from ((block,) for block in several)
+
+
+def compute_all(blocks: tuple[Block, ...]) -> list[Result]:
+    """``compute`` of each."""
+    return [compute(block) for block in blocks]
 
 
 def compute(block: Block) -> Result:

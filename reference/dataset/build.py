@@ -16,7 +16,16 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from reference.command.executors import opened, results
-from reference.dataset.blocks import PlaceError, Result, compute, partial, place_of, require_portable
+from reference.dataset.blocks import (
+    PlaceError,
+    Result,
+    compute,
+    compute_all,
+    partial,
+    place_of,
+    require_portable,
+    together,
+)
 from reference.dataset.catalogue import PROFILES, is_family_name
 from reference.dataset.checksums import CHECKSUMS, checksums, note_checksum, require_notable
 from reference.dataset.claims import attributes
@@ -149,10 +158,12 @@ def _prove(plan: Plan, finished: Partial, jobs: int, executor: str, progress: Ca
     done = total - len(pending)
     progress(done, total)
     workers = max(1, min(jobs, len(pending))) if jobs > 0 else jobs
+    tasks = together(pending.popleft() for _ in range(total - done))
     with opened(executor, workers) as pool:
-        for block, result in results(pool, compute, (pending.popleft() for _ in range(total - done)), workers):
-            finished.put(block.key, result.dumped())
-            done += 1
+        for several, found in results(pool, compute_all, tasks, workers):
+            for block, result in zip(several, found, strict=True):
+                finished.put(block.key, result.dumped())
+                done += 1
             progress(done, total)
 
 

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from reference.dataset.plan import Plan
 from reference.dataset.schema import LIMB, PROVENANCE
 from reference.family import Family
+from reference.named import is_own
 from reference.names import NAME_LENGTH, short, unknown
 from reference.problems.families import FAMILIES, find_family
 
@@ -79,7 +80,7 @@ def layouts_of(families: Sequence[Family | str]) -> tuple[Layout, ...]:
 def is_family_name(name: str) -> bool:
     """Whether a file may say that a family of this name was given: one of ours, or HOME:NAME, of printable letters."""
     ours = name in {family.name for family in FAMILIES}
-    return ours or (":" in name and name.isprintable() and len(name) <= NAME_LENGTH)
+    return ours or (is_own(name) and name.isprintable() and len(name) <= NAME_LENGTH)
 
 
 def spelled(families: Sequence[Family | str]) -> tuple[str, ...]:

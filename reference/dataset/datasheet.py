@@ -34,7 +34,8 @@ This page is printed by `python -m reference datasheet` from `{name}` itself.
 ## Why it exists
 
 An integrator can only be judged against values that are better than its own.
-This file holds such values for problems with a closed form, each proven: to test methods with, and to cite.
+This file holds such values, each proven, of problems with a closed form and of flows: to test methods with, and to \
+cite.
 
 ## What a number means
 
@@ -55,6 +56,7 @@ CLOSING = """
 ## How it is certified
 
 - The **enclosure** decides: the closed form is evaluated in ball arithmetic (Arb), \
+or the flow of the equation is proven in it step by step where there is none (a group below `/flow`), \
 at rising precision until every point of the ball rounds to the same three limbs.
 - The **Taylor** route integrates the equation of motion alone, with heyoka in MPFR arithmetic.
 - The **quadrature** route evaluates integrals and elliptic functions with mpmath.
@@ -151,6 +153,8 @@ def _page(dataset: Dataset, group: str) -> Iterator[str]:
         level, _, why = attributes["difficulty"].partition(": ")
         yield f"**Problem**: {attributes['statement']}.\n"
         yield f"**Level of difficulty**: {level}" + (f" ({why}).\n" if why else ".\n")
+    if "inputs" in attributes:
+        yield f"**Inputs, exactly**: {attributes['inputs']}.\n"
     yield "| input | units | what it is | numbers |\n|---|---|---|---|"
     for name in attributes["parameters"].split():
         units, meaning = attributes[f"{name}_units"], attributes[f"{name}_long_name"]
@@ -161,8 +165,9 @@ def _page(dataset: Dataset, group: str) -> Iterator[str]:
     yield from _samples(inputs, values)
     yield from _reasons(values)
     sources = sorted({variable.attrs["reference"] for variable in values})
-    yield f"\n**Closed form**: {'; '.join(sources)}."
-    yield f"\n**To cite this group**: {cite(dataset, 'text')} Group `/{group}`."
+    yield f"\n**{'Source' if 'inputs' in attributes else 'Closed form'}**: {'; '.join(sources)}."
+    mark = f", fingerprint sha256:{attributes['fingerprint']}" if "fingerprint" in attributes else ""
+    yield f"\n**To cite this group**: {cite(dataset, 'text')} Group `/{group}`{mark}."
 
 
 def _line(*cells: str) -> str:

@@ -3,9 +3,11 @@
 The hash runs over the line ``horologium-fingerprint-1`` and then, in ASCII order of path, over each group with fixed
 parameters and each dataset, ``/provenance`` left out:
 
-- a group: one line of JSON with its path and the hex floats of its parameters;
+- a group: one line of JSON with its path, the hex floats of its parameters and, where they are texts, its inputs;
 - a dataset: one line of JSON with path, shape, dtype, dimension names, units and definition, and after it the
   little-endian bytes of its elements in C order.
+
+The fingerprint of one group is the same hash over its own lines and elements.
 
 JSON is ASCII with sorted keys and no spaces; a line ends in a line feed.
 """
@@ -28,9 +30,9 @@ from reference.dataset.schema import PROVENANCE
 from reference.names import short
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
+    from collections.abc import Iterator
 
-__all__ = ["dimensions", "fingerprint", "parameters_of", "pieces"]
+__all__ = ["dimensions", "fingerprint", "fingerprints", "parameters_of", "pieces"]
 
 
 def parameters_of(group: h5py.Group) -> dict[str, float]:
@@ -78,21 +80,42 @@ def dimensions(file: h5py.File) -> dict[str, tuple[str, ...]]:
 
 
 def fingerprint(file: h5py.File, *, signed_zeros: bool) -> str:
-    """The fingerprint of an open file: every number is read, piece by piece, and must be finite.
+    """The fingerprint of an open file, as ``fingerprints`` has it."""
+    return fingerprints(file, signed_zeros=signed_zeros)[""]
+
+
+def fingerprints(file: h5py.File, *, signed_zeros: bool) -> dict[str, str]:
+    """The fingerprints of an open file, by "", and of its groups by path: every number is read, and must be finite.
 
     Raises:
         DatasetError: a number is not finite, or is -0.0 without ``signed_zeros``, or what the fingerprint needs is not
             there.
     """
-    digest = Digest()
+    digests = {"": Digest()}
     dims = dimensions(file)
     for path, found in sorted(_objects(file), key=lambda pair: pair[0]):
         if isinstance(found, h5py.Dataset):
-            described = text_of(found, "units"), text_of(found, "definition")
-            digest.dataset(path, found.shape, dims[path], described, _parts(found, signed_zeros), found.dtype)
+            hashed = [digests[home] for home in ("", path.rpartition("/")[0] or "/") if home in digests]
+            for digest in hashed:
+                digest.line(
+                    path=path,
+                    shape=list(found.shape),
+                    dtype=found.dtype.str,
+                    dimensions=list(dims[path]),
+                    units=text_of(found, "units"),
+                    definition=text_of(found, "definition"),
+                )
+            for part in _parts(found, signed_zeros):
+                data = np.ascontiguousarray(part, dtype=found.dtype).tobytes()
+                for digest in hashed:
+                    digest.elements(data)
         elif h5a.exists(found.id, b"parameters"):
-            digest.group(path, parameters_of(found))
-    return digest.hexdigest()
+            digests[path] = Digest()
+            parameters = {name: hexadecimal(value) for name, value in parameters_of(found).items()}
+            inputs = {"inputs": text_of(found, "inputs")} if h5a.exists(found.id, b"inputs") else {}
+            for home in ("", path):
+                digests[home].line(path=path, parameters=parameters, **inputs)
+    return {home: digest.hexdigest() for home, digest in digests.items()}
 
 
 def _objects(group: h5py.Group) -> Iterator[tuple[str, Any]]:
@@ -118,35 +141,19 @@ PIECE_ELEMENTS = 1 << 17
 
 
 class Digest:
-    """The hash as it runs: ``group`` and ``dataset`` must come in order of path."""
+    """The hash as it runs: groups and datasets must come in order of path."""
 
     def __init__(self) -> None:
         self._hash = hashlib.sha256(b"horologium-fingerprint-1\n")
 
-    def _line(self, **record: Any) -> None:
+    def line(self, **record: Any) -> None:
+        """Add a line of JSON."""
         text = json.dumps(record, sort_keys=True, separators=(",", ":"), ensure_ascii=True)
         self._hash.update(text.encode() + b"\n")
 
-    def group(self, path: str, parameters: dict[str, float]) -> None:
-        """Add a group with its fixed parameters."""
-        self._line(path=path, parameters={name: hexadecimal(value) for name, value in parameters.items()})
-
-    def dataset(
-        self,
-        path: str,
-        shape: tuple[int, ...],
-        dims: tuple[str, ...],
-        described: tuple[str, str],
-        parts: Iterable[np.ndarray],
-        dtype: np.dtype[Any],
-    ) -> None:
-        """Add a dataset: ``described`` is its units and definition, ``parts`` its elements in C order."""
-        units, definition = described
-        self._line(
-            path=path, shape=list(shape), dtype=dtype.str, dimensions=list(dims), units=units, definition=definition
-        )
-        for part in parts:
-            self._hash.update(np.ascontiguousarray(part, dtype=dtype).tobytes())
+    def elements(self, data: bytes) -> None:
+        """Add elements in C order."""
+        self._hash.update(data)
 
     def hexdigest(self) -> str:
         """The fingerprint."""

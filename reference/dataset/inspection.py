@@ -37,6 +37,7 @@ from reference.dataset.schema import (
     root_attributes,
 )
 from reference.dataset.versions import SCHEMAS
+from reference.named import is_own
 from reference.names import is_grid_file, short, unknown
 
 if TYPE_CHECKING:
@@ -93,7 +94,7 @@ class Inspection:
             if names != self._dims[path]:
                 raise refusal(self._file[path], f"has not the dimension scales {', '.join(self._dims[path])}")
         layouts = tuple(layout for layout in self._known if found.get(layout.path) is layout)
-        if any(":" in family for family in families) and set(found) <= {layout.path for layout in self.schema.layouts}:
+        if any(is_own(family) for family in families) and set(found) <= {layout.path for layout in self.schema.layouts}:
             raise refusal(self._file, f"names the family '{short(families[-1])}' and holds no group of one")
         return layouts
 
@@ -178,7 +179,10 @@ class Inspection:
         for name, number in parameters.items():
             if not self.schema.signed_zeros and is_negative_zero(number):
                 raise refusal(group, f"has the parameter {name} = -0.0; zero has no sign there")
-        says(group, group_attributes(layout, parameters))
+        marked = {"fingerprint"} if self.schema.group_fingerprints else set()
+        mark = says(group, group_attributes(layout, parameters), marked).get("fingerprint", "")
+        if marked and not (isinstance(mark, str) and FINGERPRINT.fullmatch(mark)):
+            raise refusal(group, "has no attribute 'fingerprint' of 64 hexadecimal digits")
         lengths = {LIMB: TAIL_LIMBS}
         for array in self._arrays(layout):
             dataset = self._member(group, array.name, h5py.Dataset)

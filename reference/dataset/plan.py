@@ -71,7 +71,7 @@ class Plan:
         digest = hashlib.sha256(f"{version} {BLOCK_LENGTH} {self.profile}\n".encode())
         for group in self.groups:
             layout = group.layout
-            described = [layout.path, repr(layout.coordinates), repr(layout.rows), group.taylor_elements]
+            described = [layout.path, repr(layout.coordinates), repr(layout.rows), group.taylor_elements, layout.inputs]
             exact_parameters = {name: hexadecimal(nearest(Fraction(value))) for name, value in group.parameters.items()}
             digest.update(json.dumps([described, exact_parameters], sort_keys=True).encode())
             digest.update(_program(layout.problem).encode())
@@ -86,7 +86,8 @@ def _program(problem: Callable[..., Problem]) -> str:
     That is a hash of his modules as far as they are loaded: those of the same package, or beside the same file.  Of
     what stands in no file it is a number that never comes again.  Ours is told by its version.
     """
-    home = sys.modules.get(problem.__module__) if isinstance(problem, (FunctionType, type)) else None
+    made_by = getattr(problem, "program", problem)
+    home = sys.modules.get(made_by.__module__) if isinstance(made_by, (FunctionType, type)) else None
     if home is not None and home.__name__.startswith("reference."):
         return ""
     modules = [one for one in [*sys.modules.values()] if isinstance(one, ModuleType)]

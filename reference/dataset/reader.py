@@ -15,7 +15,7 @@ from reference.dataset.catalogue import layouts_of
 from reference.dataset.checksums import check_checksum
 from reference.dataset.errors import DatasetError
 from reference.dataset.files import regular_file
-from reference.dataset.fingerprint import fingerprint, parameters_of
+from reference.dataset.fingerprint import fingerprints, parameters_of
 from reference.dataset.inspection import SIGNATURE, inspect
 from reference.dataset.schema import LIMB, PROVENANCE, arrays, families_in
 from reference.names import unknown
@@ -92,9 +92,12 @@ def _checked(path: Path, own: tuple[Layout, ...]) -> Dataset:
 
 
 def _check_fingerprint(file: h5py.File, schema: Schema) -> None:
-    noted, found = text_of(file, "fingerprint"), fingerprint(file, signed_zeros=schema.signed_zeros)
-    if noted != found:
-        raise DatasetError(f"'{file.filename}': the fingerprint of its content is {found}, not {noted}: it is altered.")
+    marks = fingerprints(file, signed_zeros=schema.signed_zeros)
+    for path, found in marks.items() if schema.group_fingerprints else [("", marks[""])]:
+        noted = text_of(file[path or "/"], "fingerprint")
+        if noted != found:
+            where = f"'{file.filename}': the fingerprint of {path or 'its content'}"
+            raise DatasetError(f"{where} is {found}, not {noted}: it is altered.")
 
 
 def _stamp(path: Path) -> tuple[int, int, int]:

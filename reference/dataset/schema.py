@@ -60,13 +60,14 @@ ROOT = {
     "references": "C. Huygens, Horologium Oscillatorium, 1673; P. F. Byrd and M. D. Friedman, Handbook of Elliptic "
     "Integrals, Springer 1971; NIST Digital Library of Mathematical Functions, chapters 19, 20 and 22; further ones "
     "stand beside the variables",
-    "source": "closed forms, integrals and zeros in ball arithmetic, each limb the one correct rounding of the exact "
-    "value; held against the Taylor method in MPFR arithmetic and against quadrature and elliptic functions of mpmath",
+    "source": "closed forms, integrals, zeros and flows in ball arithmetic, each limb the one correct rounding of the "
+    "exact value; held against the Taylor method in MPFR arithmetic and against quadrature and elliptic functions of "
+    "mpmath",
     "inputs": "exact binary64",
     "comment": "x = value + tail[0] + tail[1]: value is x correctly rounded to binary64, each tail limb the correctly "
     "rounded rest; about 48 digits",
-    "fingerprint_definition": "SHA-256 over the groups and datasets in order of path, provenance left out: see "
-    "fingerprint.py in the source",
+    "fingerprint_definition": "SHA-256 over the groups and datasets in order of path, provenance left out; of a group "
+    "over it alone: see fingerprint.py in the source",
 }
 """Root attributes that are the same in every file of the newest schema version."""
 
@@ -85,6 +86,7 @@ class Schema:
         monotonic_axes: whether the numbers on every axis rise or fall.
         signed_zeros: whether a zero may be stored as -0.0.
         names_families: whether the command may name families whose groups the file holds.
+        group_fingerprints: whether each group has a fingerprint of its own.
     """
 
     version: str
@@ -95,6 +97,7 @@ class Schema:
     monotonic_axes: bool
     signed_zeros: bool
     names_families: bool
+    group_fingerprints: bool
 
 
 def root_attributes(
@@ -144,7 +147,7 @@ def group_attributes(layout: Layout, parameters: Mapping[str, float]) -> dict[st
         "long_name": layout.long_name,
         "parameters": " ".join(parameter.name for parameter in layout.parameters),
     }
-    found |= {name: text for name in ("statement", "difficulty") if (text := getattr(layout, name))}
+    found |= {name: text for name in ("statement", "difficulty", "inputs") if (text := getattr(layout, name))}
     for parameter in layout.parameters:
         name, number = parameter.name, float(parameters[parameter.name])
         found |= {name: number, f"{name}_units": parameter.units, f"{name}_long_name": parameter.long_name}

@@ -50,7 +50,9 @@ def show(dataset: Dataset, path: str | None, form: str) -> Iterator[str]:
 def _parameters(dataset: Dataset, group: str) -> str:
     attributes = dataset.groups[group]
     names = attributes["parameters"].split()
-    return ", ".join(f"{name} = {attributes[name]!r} {attributes[name + '_units']}" for name in names)
+    return str(attributes.get("inputs", "")) or ", ".join(
+        f"{name} = {attributes[name]!r} {attributes[name + '_units']}" for name in names
+    )
 
 
 def _described(variable: Variable) -> dict[str, Any]:

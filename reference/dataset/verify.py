@@ -11,7 +11,7 @@ import numpy as np
 from reference.arithmetic.arrays import unsigned_zeros
 from reference.arithmetic.binary64 import shortest
 from reference.command.executors import opened, results
-from reference.dataset.blocks import LIMBS, START_BITS, compare, decimals, prove, require_portable
+from reference.dataset.blocks import LIMBS, START_BITS, compare, decimals, prove, require_portable, together
 from reference.dataset.claims import decimal_fault, measurement_fault
 from reference.dataset.errors import DatasetError
 from reference.dataset.reader import load
@@ -96,10 +96,13 @@ def verify(
     total = sum(1 for group in groups for _ in group.blocks())
     with opened(executor, jobs) as pool:
         blocks = (block for group in groups for block in group.blocks())
-        for done, (block, (limbs, again)) in enumerate(results(pool, _again, blocks, jobs), 1):
-            _compare(dataset, block, limbs, proofs)
-            for quantity, text in zip(block.row.quantities, again, strict=False):
-                proofs[block.layout.path, quantity.name].decimals[block.element] = text
+        done = 0
+        for several, found in results(pool, _again, together(blocks), jobs):
+            for block, (limbs, again) in zip(several, found, strict=True):
+                _compare(dataset, block, limbs, proofs)
+                for quantity, text in zip(block.row.quantities, again, strict=False):
+                    proofs[block.layout.path, quantity.name].decimals[block.element] = text
+            done += len(several)
             if progress:
                 progress(done, total)
         for block, digits in results(pool, _routes, _sample(groups), jobs):
@@ -114,9 +117,9 @@ def verify(
     return list(proofs.values())
 
 
-def _again(block: Block) -> tuple[np.ndarray, tuple[str, ...]]:
-    """The proven limbs from twice the precision of the build, and the proven decimals."""
-    return prove(block, 2 * START_BITS), decimals(block)
+def _again(blocks: tuple[Block, ...]) -> list[tuple[np.ndarray, tuple[str, ...]]]:
+    """Of each block the proven limbs from twice the precision of the build, and the proven decimals."""
+    return [(prove(block, 2 * START_BITS), decimals(block)) for block in blocks]
 
 
 def _group(dataset: Dataset, path: str) -> Group:

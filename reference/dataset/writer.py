@@ -18,7 +18,7 @@ import numpy as np
 from h5py import h5d, h5p, h5s, h5t
 
 from reference.command.interrupts import held
-from reference.dataset.fingerprint import fingerprint
+from reference.dataset.fingerprint import fingerprints
 from reference.dataset.schema import (
     ATTRIBUTE_LIMIT,
     FEW,
@@ -156,7 +156,10 @@ class Writer:
     def finish(self, version: str, plan: Plan, provenance: Mapping[str, str]) -> str:
         """Add the root's attributes, where it all came from, and the fingerprint, which is returned."""
         _describe(self._file.create_group(PROVENANCE), provenance)
-        found = fingerprint(self._file, signed_zeros=NEWEST.signed_zeros)
+        marks = fingerprints(self._file, signed_zeros=NEWEST.signed_zeros)
+        found = marks.pop("")
+        for path, mark in marks.items():
+            _describe(self._file[path], {"fingerprint": mark})
         described = root_attributes(NEWEST, version, plan.profile, provenance.get("date", ""), plan.families)
         _describe(self._file, {**described, "fingerprint": found})
         return found

@@ -1,6 +1,7 @@
 """The families of problems that there are, each declared where its equations stand.
 
-A module of this folder, or ``family.py`` in a folder of it, declares a family by holding it: no list names it.
+A module of this folder, or ``family.py`` in a folder of it, declares a family by holding it, or several as its tuple
+``FAMILIES``: no list names it.
 """
 
 from __future__ import annotations
@@ -11,7 +12,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from reference.family import Family
-from reference.named import named
+from reference.flow import flow_from
+from reference.flow_families import flow_family
+from reference.flow_problem import FlowProblem
+from reference.named import EQUATION, named
 from reference.names import unknown
 
 if TYPE_CHECKING:
@@ -36,7 +40,8 @@ def _declared() -> tuple[Family, ...]:
     found: list[Family] = []
     for name in (*FIRST, *later):
         module = import_module(f"{__package__}.{homes[name]}")
-        found += [one for one in vars(module).values() if isinstance(one, Family) and one not in found]
+        held = (*vars(module).values(), *getattr(module, "FAMILIES", ()))
+        found += [one for one in held if isinstance(one, Family) and one not in found]
     for names in ([one.name for one in found], [one.comparison.command for one in found]):
         for name in names:
             if names.count(name) > 1:
@@ -59,15 +64,17 @@ def usual_problem() -> Problem:
 
 @cache
 def find_family(name: str) -> Family:
-    """The family of this name, or one of the user's own: MODULE:NAME or FILE.py:NAME.
+    """The family of this name, or one of the user's own: MODULE:NAME, FILE.py:NAME, or FILE.toml of an equation.
 
     Raises:
         ValueError: there is none.
         FileNotFoundError, ImportError: the user's module cannot be imported.
     """
+    if name.endswith(EQUATION):
+        return flow_from(Path(name))
     if ":" in name:
-        found: Family = named(name, "family", "FAMILY", lambda value: isinstance(value, Family))
-        return found
+        found = named(name, "family", "FAMILY", lambda value: isinstance(value, (Family, FlowProblem)))
+        return flow_family(type(found), name) if isinstance(found, FlowProblem) else found
     known = {family.name: family for family in FAMILIES}
     if name not in known:
         raise ValueError(unknown("problem", name, known))

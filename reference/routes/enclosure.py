@@ -1,4 +1,4 @@
-"""The enclosure: closed forms in Arb's balls, doubled in precision until every ball is decided."""
+"""The enclosure: closed forms in Arb's balls, or proven flows, doubled in precision until every ball is decided."""
 
 from __future__ import annotations
 
@@ -61,7 +61,7 @@ def decide(
         return [_known(rational[i], _wanted(balls, component)) for i, balls in zip(indices, found, strict=True)]
 
     def enclose(rows: Sequence[int]) -> Sequence[Sequence[Any]]:
-        return by(problem.closed_form(BALL), [rest[i] for i in rows])
+        return by(problem.enclosure_form(), [rest[i] for i in rows])
 
     answers: dict[int, list[Any]] = {}
     with ctx.workprec(start):

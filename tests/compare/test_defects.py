@@ -14,6 +14,7 @@ from compare.measure.truth import Course
 from compare.methods import find
 from reference import Descent, Pendulum, PolarBrachistochrone, Tautochrone
 from reference.problems.cycloid.tautochrone import CycloidalPendulum
+from reference.problems.families import find_family
 from reference.problems.polar.paths import PolarByPsi
 
 if TYPE_CHECKING:
@@ -81,3 +82,10 @@ def test_a_curve_has_no_defects() -> None:
 
 def test_a_march_that_is_lost_does_not_come_back() -> None:
     assert math.isnan(defects("euler", ARC, n=2048, t_end=10**9).reversibility)
+
+
+def test_entries_of_the_form_that_change_as_much_with_other_signs_are_no_rounding() -> None:
+    """In Toda's ring the momentum is kept: the entries of the form's change come in such pairs."""
+    found = defects("rk4", find_family("toda").problem(), n=16, t_end=1)
+    assert found.symplecticity > 1e-6
+    assert found.symplecticity_rounding < 1e-12

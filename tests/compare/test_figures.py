@@ -246,7 +246,8 @@ def test_nothing_is_drawn_where_a_name_is_unknown(tmp_path, capsys):
     assert main(["published", "thesis-figure-9", "figure8", "--out", str(tmp_path)]) == 2
     assert capsys.readouterr().err == (
         "error: table or figure 'figure8' is unknown, perhaps figures or figure7 or thesis-figure-8; "
-        "accepted are table8, table9, table12, figure7, curves, all, figures, and the name of one figure: "
+        "accepted are table8, table9, table12, figure7, curves, detest, rksuite, pleiades, arenstorf, "
+        "figure-eight, all, figures, and the name of one figure: "
         f"{', '.join(FIGURES)}.\n"
     )
     assert not list(tmp_path.iterdir())

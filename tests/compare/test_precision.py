@@ -7,6 +7,7 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
+from flint import arb
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -53,6 +54,18 @@ def test_an_algebraic_coefficient_is_rounded_once(fmt: Precision) -> None:
     found = fmt.round(root(2, 3))
     assert abs(found**3 - 2) < 8 * fmt.epsilon
     assert found**3 != 2
+
+
+class AboutOne:
+    """A number that balls enclose and never tell from a power of two, such as cos^2 + sin^2."""
+
+    def ball(self) -> arb:
+        return (arb(11) / 10).cos() ** 2 + (arb(11) / 10).sin() ** 2
+
+
+@pytest.mark.parametrize("fmt", FORMATS, ids=lambda fmt: fmt.name)
+def test_a_power_of_two_is_rounded_though_its_balls_reach_to_both_sides_of_it(fmt: Precision) -> None:
+    assert fmt.round(AboutOne()) == 1
 
 
 @every_format

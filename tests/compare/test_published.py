@@ -22,7 +22,7 @@ from compare.methods import find
 from compare.sources.published.entry import reproduce
 from compare.sources.published.options import options
 from compare.sources.published.pendulum import dense
-from compare.sources.published.source import figure, figures, sources, tables
+from compare.sources.published.source import figure, figures, solutions, sources, tables
 from reference import Pendulum
 from reference.arithmetic.namespaces import NUMPY
 from reference.arithmetic.precision import mp
@@ -216,7 +216,7 @@ def test_a_column_must_have_an_entry_for_every_row():
 
 
 def test_every_table_and_figure_names_its_page_and_a_known_source():
-    assert {table.source for table in tables()} == set(sources())
+    assert {table.source for table in (*tables(), *solutions())} == set(sources())
     assert [(table.item, table.page) for table in tables()] == [
         ("report table 8", 6),
         ("report table 9", 6),
@@ -290,7 +290,8 @@ def test_an_unknown_table_is_one_sentence(capsys):
     assert main(["published", "table10"]) == 2
     assert capsys.readouterr().err == (
         "error: table or figure 'table10' is unknown, perhaps table12 or table9 or table8; "
-        f"accepted are table8, table9, table12, figure7, curves, all, figures, and the name of one figure: {FIGURES}.\n"
+        "accepted are table8, table9, table12, figure7, curves, detest, rksuite, pleiades, arenstorf, figure-eight, "
+        f"all, figures, and the name of one figure: {FIGURES}.\n"
     )
 
 

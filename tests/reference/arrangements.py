@@ -53,7 +53,7 @@ def prepared(folder):
     """Have everything imported and every block proven, and be shut up in the folder as nobody where this is root."""
     for block in (*PLAN.blocks(), *OTHER.blocks()):
         proven(block)
-    building.compute = proven
+    building.compute_all = lambda blocks: list(map(proven, blocks))
     versions = {tool: building.installed(tool) for tool in building.TOOLS}
     building.installed = versions.__getitem__
     made_in(folder)  # has everything imported

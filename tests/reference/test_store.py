@@ -286,7 +286,8 @@ def test_the_datasheet_has_a_page_for_each_group(built):
         assert page in whole
         assert f"**Problem**: {attributes['statement']}." in page
         assert f"**Level of difficulty**: {attributes['difficulty'].partition(':')[0]}" in page
-        assert f"Fingerprint sha256:{dataset.fingerprint}. Group `/{group}`." in page
+        assert f"Fingerprint sha256:{dataset.fingerprint}. Group `/{group}`, fingerprint sha256:" in page
+        assert attributes["fingerprint"] in page
         for variable in dataset.values():
             if variable.name.startswith(group) and not variable.is_input:
                 assert f"| `{variable.name.rpartition('/')[2]}` | " in page

@@ -7,10 +7,10 @@ import shutil
 import h5py
 import numpy as np
 import pytest
+from forgery import marked
 
 from reference.dataset.build import build
 from reference.dataset.errors import DatasetError
-from reference.dataset.fingerprint import fingerprint
 from reference.dataset.plan import Plan
 from reference.dataset.reader import load
 from reference.dataset.schema import exact_texts
@@ -60,8 +60,7 @@ def forge(path, change):
         for axis in (file["pendulum/dimensionless/amplitude"], file["pendulum/dimensionless/time"]):
             for name, text in exact_texts(axis[...].tolist()).items():
                 say(axis, name, text)
-        text = fingerprint(file, signed_zeros=True).encode()
-        file.attrs.create("fingerprint", text, dtype=h5py.string_dtype("utf-8", len(text)))
+        marked(file, signed_zeros=True)
     (path.parent / "SHA256SUMS").unlink()
 
 
@@ -150,8 +149,7 @@ def test_an_argument_that_a_row_does_not_take_is_refused(tmp_path):
 
     def change(file):
         file["pendulum/libration/event"][1] = -3
-        text = fingerprint(file, signed_zeros=False).encode()
-        file.attrs.create("fingerprint", text, dtype=h5py.string_dtype("utf-8", len(text)))
+        marked(file, signed_zeros=False)
 
     with h5py.File(path, "r+", libver=("v110", "v110")) as file:
         change(file)

@@ -38,7 +38,7 @@ def refused(capsys, out):
 
 @pytest.fixture
 def no_work(monkeypatch):
-    monkeypatch.setattr(building, "compute", lambda _block: pytest.fail("work was done"))
+    monkeypatch.setattr(building, "compute_all", lambda _blocks: pytest.fail("work was done"))
 
 
 @pytest.mark.usefixtures("no_work")
@@ -163,8 +163,8 @@ def test_a_build_that_cannot_take_its_place_leaves_the_old_file_with_its_checksu
 
 def test_a_folder_that_takes_the_output_s_place_under_way_is_not_taken_for_the_file(tmp_path, capsys, monkeypatch):
     out = tmp_path / "x.h5"
-    compute = building.compute
-    monkeypatch.setattr(building, "compute", lambda block: out.mkdir(exist_ok=True) or compute(block))
+    compute = building.compute_all
+    monkeypatch.setattr(building, "compute_all", lambda blocks: out.mkdir(exist_ok=True) or compute(blocks))
     assert refused(capsys, out) == f"error: '{out}' was not written: Is a directory; nothing was left behind.\n"
     assert out.is_dir()
     assert leftovers(tmp_path) == ["x.h5"]
@@ -266,8 +266,8 @@ def test_a_build_lists_its_blocks_once_and_tells_of_its_progress_before_it_prove
     told, listed = [], []
     blocks = type(TINY).blocks
     monkeypatch.setattr(type(TINY), "blocks", lambda self: listed.append(told[:]) or blocks(self))
-    compute = building.compute
-    monkeypatch.setattr(building, "compute", lambda block: told.append("proven") or compute(block))
+    compute = building.compute_all
+    monkeypatch.setattr(building, "compute_all", lambda blocks: told.append("proven") or compute(blocks))
     build(TINY, tmp_path / "x.h5", progress=lambda done, total: told.append((done, total)))
     assert told == [(0, 3), "proven", (1, 3), "proven", (2, 3), "proven", (3, 3)]
     assert listed == [[], told]  # and once more to write them in order

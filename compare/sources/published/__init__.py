@@ -1,1 +1,1 @@
-"""The tables that two documents print, reproduced: as published, as reproduced, as exact."""
+"""The tables that two documents print, reproduced: as published, as reproduced, as exact; and printed solutions."""

@@ -6,9 +6,9 @@ from dataclasses import dataclass
 from decimal import Decimal
 from typing import TYPE_CHECKING
 
-from compare.sources.published import curve, forms, pendulum
+from compare.sources.published import curve, forms, pendulum, solution
 from compare.sources.published.number import Rounded
-from compare.sources.published.source import figures, tables
+from compare.sources.published.source import figures, solutions, tables
 from reference.names import unknown
 
 if TYPE_CHECKING:
@@ -68,20 +68,25 @@ class Reproduction:
         wrong = sum(entry.wrong for entry in printed)
         claims = any(column.claims_exact for column in self.table.columns)
         verdict = f"{wrong} of those that claim to be exact wrong" if claims else "none claims to be exact"
+        if all(column.exactly for column in self.table.columns):
+            return f"{len(printed) - same} of {len(printed)} published entries off in their last digit or before"
         return f"{len(printed)} published entries; {same} reproduced to the last digit; {verdict}"
 
 
 def reproduce(names: Sequence[str] = ()) -> list[Reproduction]:
-    """The tables of these names, or all, computed again.
+    """The tables of these names, or all of the two documents, computed again.
 
     Raises:
         ValueError: a name is unknown.
     """
-    known = {table.name: table for table in tables()}
+    known = {table.name: table for table in (*tables(), *solutions())}
     for name in names:
         if name not in known:
             raise ValueError(unknown("table", name, list(known), [figure.name for figure in figures()]))
-    return [Reproduction(known[name], tuple(_entries(known[name]))) for name in dict.fromkeys(names or known)]
+    return [
+        Reproduction(known[name], tuple(_entries(known[name])))
+        for name in dict.fromkeys(names or [table.name for table in tables()])
+    ]
 
 
 def _entries(table: Table) -> Iterator[Entry]:
@@ -93,10 +98,13 @@ def _entries(table: Table) -> Iterator[Entry]:
 
 def _entry(table: Table, column: Column, row: str, published: str | None) -> Entry:
     places = column.places if published is None else _places(published)
-    number = REPRODUCED[table.name][column.by](table, column, row)
-    reproduced = number.fixed(places)
-    exact = EXACT[table.name](table, column, row).fixed(places)
-    off_by = None if published is None else int((Decimal(reproduced) - Decimal(published)).scaleb(places))
+    if column.exactly and published is not None:
+        number = solution.component(table, row)
+        reproduced = exact = solution.as_printed(number, published)
+    else:
+        number = REPRODUCED[table.name][column.by](table, column, row)
+        reproduced, exact = number.fixed(places), EXACT[table.name](table, column, row).fixed(places)
+    off_by = None if published is None else _units(reproduced, published)
     return Entry(
         item=table.item,
         row=row,
@@ -113,3 +121,8 @@ def _entry(table: Table, column: Column, row: str, published: str | None) -> Ent
 
 def _places(text: str) -> int:
     return len(text.partition(".")[2])
+
+
+def _units(text: str, printed: str) -> int:
+    """The difference in units of the last printed digit."""
+    return int((Decimal(text) - Decimal(printed)).scaleb(-int(Decimal(printed).as_tuple().exponent)))

@@ -1,7 +1,7 @@
 """The options of ``python -m compare published``, without what takes time to import.
 
 ``published figures --out DIR`` draws the figures of both sources, ``published thesis-figure-8`` one of them; without
-names every table is printed.
+names every table of both is printed.
 """
 
 from __future__ import annotations
@@ -10,7 +10,7 @@ import re
 from typing import TYPE_CHECKING, Any
 
 from compare.show.render import FORMATS
-from compare.sources.published.source import figures, tables
+from compare.sources.published.source import figures, solutions, tables
 from reference.command.terminal import one_of
 from reference.names import unknown
 
@@ -33,8 +33,9 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         "names",
         nargs="*",
         metavar="NAME",
-        help="table8, table9, table12, figure7, curves or all (default all); figures to draw every figure, or the name "
-        "of one, such as thesis-figure-8",
+        help="table8, table9, table12, figure7, curves or all (default all); a solution that the literature prints: "
+        f"{', '.join(table.name for table in solutions())}; figures to draw every figure, or the name of one, such as "
+        "thesis-figure-8",
     )
     parser.add_argument("--out", metavar="DIR", help=f"folder of the figures (default ./{DEFAULT_FOLDER})")
     parser.add_argument("--quiet", action="store_true", help="nothing on stderr but errors")
@@ -77,8 +78,9 @@ def _known(given: str) -> str:
     Raises:
         ValueError: it is unknown.
     """
-    shown, drawn = [table.name for table in tables()], [figure.name for figure in figures()]
-    by_item = {_letters(table.item): table.name for table in tables()}
+    known = (*tables(), *solutions())
+    shown, drawn = [table.name for table in known], [figure.name for figure in figures()]
+    by_item = {_letters(table.item): table.name for table in known}
     meant = by_item | {_letters(name): name for name in (*shown, ALL, FIGURES, *drawn)}
     if _letters(given) not in meant:
         sentence = unknown("table or figure", given, [*shown, ALL, FIGURES], drawn)

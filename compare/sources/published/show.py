@@ -21,11 +21,14 @@ if TYPE_CHECKING:
 __all__ = ["page"]
 
 LABELS = ("published", "reproduced", "exact", "off by")
+EXACTLY = ("published", "exact", "off by")
+"""The same of a column that no method computes."""
 NOT_PRINTED = ("reproduced", "exact")
 """What is shown of a column that the source does not print."""
 LEGEND = (
     "[ ] marks the digits from the first that is not the published one, or where none is published the reproduced one; "
-    "off by: reproduced less published, in units of the last printed digit; ! marks a published digit that is wrong."
+    "off by: reproduced, or exact where no method is, less published, in units of the last printed digit; ! marks a "
+    "published digit that is wrong."
 )
 
 
@@ -92,28 +95,26 @@ def _grids(one: Reproduction, width: int) -> list[Grid]:
 def _grid(one: Reproduction, names: Sequence[str]) -> Grid:
     table = one.table
     entries = {(entry.column, entry.row): entry for entry in one.entries}
-    printed = {column.name: bool(column.printed) for column in table.columns}
+    kinds = {one.name: (EXACTLY if one.exactly else LABELS) if one.printed else NOT_PRINTED for one in table.columns}
     head = Column(f"{table.row_name} [{table.row_units}]" if table.row_units else table.row_name)
-    labels = {name: LABELS if printed[name] else NOT_PRINTED for name in names}
-    columns = (head, *(Column(label, name) for name in names for label in labels[name]))
+    columns = (head, *(Column(label, name) for name in names for label in kinds[name]))
     rows = tuple(
-        (row, *(cell for name in names for cell in _cells(entries.get((name, row)), len(labels[name]))))
-        for row in table.rows
+        (row, *(cell for name in names for cell in _cells(entries.get((name, row)), kinds[name]))) for row in table.rows
     )
     return Grid(columns, rows)
 
 
-def _cells(entry: Entry | None, count: int) -> tuple[str, ...]:
+def _cells(entry: Entry | None, labels: Sequence[str]) -> tuple[str, ...]:
     """The cells of an entry, with the digits marked that differ."""
     if entry is None:
-        return ("",) * count
+        return ("",) * len(labels)
     if entry.published is None:
         # beside a number that tells itself which of its digits are rounding the exact one needs no mark
         decided = entry.shown == entry.reproduced
         return entry.shown, _marked(entry.exact, entry.reproduced) if decided else entry.exact
     return (
         entry.published + ("!" if entry.wrong else ""),
-        _marked(entry.reproduced, entry.published),
+        *([_marked(entry.reproduced, entry.published)] if "reproduced" in labels else []),
         _marked(entry.exact, entry.published),
         f"{entry.off_by:+d}" if entry.off_by else "0",
     )

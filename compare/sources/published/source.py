@@ -14,9 +14,11 @@ from typing import Any
 
 from reference.names import unknown
 
-__all__ = ["Column", "Figure", "Table", "figure", "figures", "sources", "tables"]
+__all__ = ["Column", "Figure", "Table", "figure", "figures", "solutions", "sources", "tables"]
 
 DATA = Path(__file__).with_name("published.toml")
+SOLUTIONS = Path(__file__).with_name("solutions.toml")
+"""The solutions that the literature prints of its own problems, at one time each."""
 
 
 @dataclass(frozen=True)
@@ -47,6 +49,11 @@ class Column:
     notes: dict[str, str] = field(default_factory=dict, hash=False)
     skip: tuple[str, ...] = ()
 
+    @property
+    def exactly(self) -> bool:
+        """Whether it is computed again exactly, and by no method."""
+        return self.by == "solution"
+
 
 @dataclass(frozen=True)
 class Table:
@@ -56,7 +63,7 @@ class Table:
         name: as the command line spells it.
         source: whose it is, a key of ``sources()``.
         item: what it is called in records, such as "report table 9".
-        page: where it is printed.
+        page: where it is printed; 0 where it has no page.
         inferred: from what that is known, where the source does not print it.
         title: what its numbers are, with their unit.
         row_name, row_units: what tells its rows apart.
@@ -119,23 +126,30 @@ class Figure:
 
 
 def _cited(one: Table | Figure) -> str:
-    return f"{one.item.capitalize()}, page {one.page}{' (inferred)' if one.inferred else ''}"
+    item = one.item[:1].upper() + one.item[1:]
+    return f"{item}, page {one.page}{' (inferred)' if one.inferred else ''}" if one.page else item
 
 
-@lru_cache(maxsize=1)
-def _read() -> dict[str, Any]:
-    return tomllib.loads(DATA.read_text(encoding="utf-8"))
+@lru_cache(maxsize=2)
+def _read(data: Path = DATA) -> dict[str, Any]:
+    return tomllib.loads(data.read_text(encoding="utf-8"))
 
 
 def sources() -> dict[str, str]:
     """The documents, by what they are called here."""
-    return dict(_read()["sources"])
+    return {**_read()["sources"], **_read(SOLUTIONS)["sources"]}
 
 
 @lru_cache(maxsize=1)
 def tables() -> tuple[Table, ...]:
-    """The tables in the order of the file."""
+    """The tables of the two documents, in the order of the file."""
     return tuple(_table(dict(values)) for values in _read()["tables"])
+
+
+@lru_cache(maxsize=1)
+def solutions() -> tuple[Table, ...]:
+    """The tables of printed solutions, whose rows are components: some take minutes to be proven."""
+    return tuple(_table(dict(values)) for values in _read(SOLUTIONS)["tables"])
 
 
 @lru_cache(maxsize=1)

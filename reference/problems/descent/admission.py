@@ -16,13 +16,13 @@ from flint import acb, arb
 from reference.arithmetic.balls import BALL
 from reference.arithmetic.precision import ctx
 from reference.arithmetic.real_domains import OutsideDomainError, real
+from reference.arithmetic.surds import exactly
 from reference.names import short
 from reference.problems.descent.analytic import ANALYTIC
 from reference.problems.descent.clock import MAX_DEPTH, MAX_DISCS, MAX_OPERATIONS, ChartWorkError, NoChartError, pieces
 from reference.problems.descent.curves import Curve, FormulaCurve
 from reference.problems.descent.reality import Unreal, unreal
 from reference.problems.descent.slide import Slide
-from reference.problems.descent.surds import exactly
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

@@ -18,9 +18,9 @@ from reference.arithmetic.balls import BALL
 from reference.arithmetic.dual import with_slope
 from reference.arithmetic.exact import rational_root
 from reference.arithmetic.precision import ctx
+from reference.arithmetic.surds import SURD, UNKNOWN, Surd, exactly, known, surd
 from reference.once import cached_property
 from reference.problems.descent.curves import CycloidByArc, FormulaCurve
-from reference.problems.descent.surds import SURD, UNKNOWN, Surd, exactly, known, surd
 
 if TYPE_CHECKING:
     from reference.problems.descent.slide import Slide

@@ -15,6 +15,8 @@ from fractions import Fraction
 from math import gcd, isqrt
 from typing import TYPE_CHECKING, Any, TypeVar
 
+from flint import fmpz
+
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
@@ -34,8 +36,8 @@ __all__ = [
 
 MAX_TERMS = 200
 MAX_BITS = 4000
-MAX_FACTOR = 1000
-"""Square factors are sought among the primes up to here, and in what they leave as a whole."""
+MAX_FACTORED = 160
+"""Whole numbers of up to so many bits are factored under a root."""
 
 Key = tuple[int, int, int, int]
 Sum = dict[Key, Fraction]
@@ -164,16 +166,17 @@ def rational_root(value: Fraction) -> Surd:
     """r sqrt(d), the square root of a rational."""
     if value < 0:
         raise NotExactError
-    rest, outside, n = value.numerator * value.denominator, 1, 2
-    while n <= MAX_FACTOR:
-        while rest and rest % n**2 == 0:
-            rest, outside = rest // n**2, outside * n
-        n += 1
-    if isqrt(rest) ** 2 == rest:
-        rest, outside = 1, outside * isqrt(rest)
-    elif rest > MAX_FACTOR**2:
-        raise NotExactError  # it may have a square factor that was not found
-    return Surd({(0, 0, 0, rest): Fraction(outside, value.denominator)} if value else {}, {ONE: Fraction(1)})
+    if not value:
+        return surd(0)
+    square = value.numerator * value.denominator
+    if isqrt(square) ** 2 == square:
+        return surd(Fraction(isqrt(square), value.denominator))
+    if square.bit_length() > MAX_FACTORED:
+        raise NotExactError
+    rest = outside = 1
+    for prime, power in fmpz(square).factor():
+        rest, outside = rest * int(prime) ** (power % 2), outside * int(prime) ** (power // 2)
+    return Surd({(0, 0, 0, rest): Fraction(outside, value.denominator)}, {ONE: Fraction(1)})
 
 
 def _single(i: int, k: int, j: int) -> Surd:
