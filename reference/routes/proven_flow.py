@@ -54,7 +54,7 @@ STEP_BITS = 8
 """Bits of a step's length: times are exact."""
 SPARE = 10
 """A step whose own error comes to more than 2^SPARE roundings is halved, as long as that makes it smaller."""
-GAIN = 2
+GAIN = 8
 """Bits that halving a step has to gain."""
 SIDES = 10
 """Up to so many components a parallelepiped of errors is carried: it costs as many equations as it has entries."""
@@ -148,6 +148,7 @@ class _Side:
         self.pieces: list[Piece] = []
         self._ends: list[Fraction] = []
         self.reached = Fraction(0)
+        self._usual: float = SPARE
         self.order = math.ceil(bits * math.log(2) / 2)
         with ctx.workprec(bits):
             start = equation.start_in(BALL)
@@ -211,7 +212,8 @@ class _Side:
         """Prove a step of this length, of which the tape has the polynomials.
 
         Raises:
-            RefusedError: it is not proven, or its own error is of more than 2^SPARE roundings, and less than gained.
+            RefusedError: it is not proven, or its own error is of more roundings than 2^SPARE, or than that of the step
+                before where halving gained nothing, and less than gained.
         """
         variables, errors = self._reading.variables, self.errors
         defects = self._reading.defects(h)
@@ -226,13 +228,14 @@ class _Side:
             floor = reduce(larger, (one.norm for one in variables)) * arb(2) ** -self.bits
             units = (larger(one.norm, floor) for one in variables)
             roundings = max(self._roundings(*pair) for pair in zip(local, units, strict=True))
-            if SPARE < roundings < gained:
+            if self._usual < roundings < gained:
                 raise RefusedError("the step is too long", roundings)
             moved = errors.moved(tube, defects, off, local, [bound(end.rad()) for end in ends])
         self.pieces.append(Piece(self.reached, h, tuple(one.polynomial for one in variables), tuple(tube.errors)))
         self.reached += h
         self._ends.append(abs(self.reached))
         self.middle, self.errors = middle, moved
+        self._usual = max(SPARE, roundings + GAIN / 2)
 
     def _roundings(self, error: arb, unit: arb) -> float:
         """log2 of an error in roundings of a component of this size."""
