@@ -94,6 +94,8 @@ class FlowProblem(Problem):
     """Until when a dataset has it; of itself where a march ends."""
     variants: ClassVar[tuple[Mapping[str, str], ...]] = ()
     """Other inputs of which a dataset has a group each, such as other energies."""
+    in_core: ClassVar[bool] = True
+    """Whether the core dataset has it, which what takes minutes leaves to the full one."""
     crossings: ClassVar[int] = 0
     """How many crossings a dataset has."""
     meanings: ClassVar[Mapping[str, str]] = {}
