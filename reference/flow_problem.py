@@ -35,10 +35,10 @@ from reference.arithmetic.precision import ctx
 from reference.arithmetic.rational import RATIONAL, IrrationalError
 from reference.declaration import Quantity, Row, Trial
 from reference.names import unknown
-from reference.problem import HamiltonianProblem, Problem, required
+from reference.problem import APART, HamiltonianProblem, Problem, required
 from reference.routes.flow_events import crossing_times, crossings
 from reference.routes.proven_flow import BITS_APART, FlowSolution, lost
-from reference.routes.sensitivity import Sensitivity, by_variations, known_sensitivity
+from reference.routes.sensitivity import Sensitivity, Variations, known_sensitivity
 from reference.routes.taylor import Along, Passages
 from reference.row_domains import INDEX, TIME, Whole
 
@@ -139,7 +139,7 @@ class FlowProblem(Problem):
         What is conserved is read of the state where a march ends.
         """
         found: dict[str, Reading] = {"state": Along(), CROSSINGS: Passages(), END: _ends, CONSERVED: _at_the_end}
-        return {**found, **{SENSITIVITY + name: by_variations(self, name) for name in self.input_names()}}
+        return {**found, **{SENSITIVITY + name: Variations(input=name) for name in self.input_names()}}
 
     @property
     def trial(self) -> Trial:  # type: ignore[override]
@@ -235,8 +235,6 @@ class FlowProblem(Problem):
 
     def neighbour(self, rounding: Callable[[Fraction], Fraction], epsilon: Fraction) -> FlowProblem:
         """From a start of which the first component that is not zero is smaller by 2^-36, or by 16 roundings."""
-        from reference.problem import APART
-
         for name, value in zip(self.space.components, self.start, strict=True):
             if value:
                 return type(self)(**{**dict(self.given), name: rounding(value * (1 - max(APART, 16 * epsilon)))})
@@ -265,8 +263,7 @@ class _FlowRows(FlowSolution):
             start = problem.start_in(BALL)
             return [(BALL.number(Fraction(0)) + problem.conserved(index, BALL, start),) for index in arguments]
         if row.startswith(SENSITIVITY):
-            flow = FlowSolution(self._flow_problem.sensitivity(row.removeprefix(SENSITIVITY)))
-            size = len(self._flow_problem.state_names)
+            flow, size = FlowSolution(problem.sensitivity(row.removeprefix(SENSITIVITY))), len(problem.state_names)
             return [values[size:] for values in flow.rows("state", arguments)]
         return super().rows(row, arguments)
 

@@ -24,7 +24,7 @@ from flint import arb, arb_mat, arb_poly
 from reference.arithmetic.balls import BALL
 from reference.arithmetic.dual import Dual, DualArithmetic
 from reference.arithmetic.limbs import WorkBoundError
-from reference.arithmetic.models import BOUND_BITS, ModelArithmetic, Node, RefusedError, Tape, Variable, bound
+from reference.arithmetic.models import BOUND_BITS, ModelArithmetic, Node, RefusedError, Tape, Variable, bound, total
 from reference.arithmetic.precision import ctx
 
 if TYPE_CHECKING:
@@ -57,7 +57,7 @@ SPARE = 10
 GAIN = 8
 """Bits that halving a step has to gain."""
 SIDES = 10
-"""Up to so many components a parallelepiped of errors is carried: it costs as many equations as it has entries."""
+"""Up to so many components a parallelepiped of errors is carried: it costs products of matrices in each step."""
 
 
 class HorizonError(WorkBoundError):
@@ -100,7 +100,7 @@ class ProvenFlow:
     """
 
     def __init__(self, equation: Equation, bits: int, steps: int) -> None:
-        self.equation, self.bits, self.steps = equation, bits, steps
+        self.equation, self.bits = equation, bits
         self._sides = {sign: _Side(equation, bits, sign, steps) for sign in (1, -1)}
 
     def at(self, time: Fraction) -> list[arb]:
@@ -334,7 +334,7 @@ def _defect(variable: Node, rate: Node | arb, h: arb) -> arb:
     off = variable.polynomial.derivative() - h * found
     with ctx.workprec(BOUND_BITS):
         missed = abs(h) * rate.remainder if isinstance(rate, Node) else arb(0)
-        return bound(sum((term.abs_upper() for term in off.coeffs()), arb(0)) + missed)
+        return bound(total(off.coeffs()) + missed)
 
 
 class _Tube:
@@ -555,7 +555,7 @@ class _Turning:
         self._tape.begin()
         self._tape.fill(order)
         apart = [
-            bound(error + sum((term.abs_upper() for term in (one.polynomial - arb_poly(known)).coeffs()), arb(0)))
+            bound(error + total((one.polynomial - arb_poly(known)).coeffs()))
             for one, known, error in zip(variables, self._start, tube.errors, strict=True)
         ]
         self._tape.close([*apart, arb(0)])
@@ -592,7 +592,7 @@ class _Turning:
 
     def _defects(self, h: arb, columns: Sequence[Sequence[arb_poly]]) -> list[list[arb]]:
         """Bounds of |V' - h J V| on the step, entry by entry (rules 1, 2 and 9)."""
-        norms = [[_norm(one) for one in column] for column in columns]
+        norms = [[total(one.coeffs()) for one in column] for column in columns]
         found = []
         for i, row in enumerate(self._slopes):
             known = [
@@ -603,16 +603,11 @@ class _Turning:
             bounds = []
             for column, sizes in zip(columns, norms, strict=True):
                 turned = sum((slope * column[j] for j, slope, _ in known), arb_poly())
-                off = _norm(column[i].derivative() - h * turned)
+                off = total((column[i].derivative() - h * turned).coeffs())
                 missed = sum((remainder * sizes[j] for j, _, remainder in known), arb(0))
                 bounds.append(bound(off + abs(h) * missed))
             found.append(bounds)
         return found
-
-
-def _norm(polynomial: arb_poly) -> arb:
-    """A bound of the sum of the sizes of its coefficients."""
-    return bound(sum((term.abs_upper() for term in polynomial.coeffs()), arb(0)))
 
 
 class FlowSolution:

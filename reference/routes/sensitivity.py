@@ -6,7 +6,7 @@ dual numbers, and state and derivatives are proven together.  docs/flows.md has 
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import lru_cache
 from typing import TYPE_CHECKING, Any
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
     from reference.routes.taylor import TaylorRoute
 
-__all__ = ["Sensitivity", "by_variations", "known_sensitivity"]
+__all__ = ["Sensitivity", "Variations", "known_sensitivity"]
 
 LOOK_BITS = 64
 """Working precision at which it is seen which slopes of an equation are zero everywhere."""
@@ -147,12 +147,17 @@ def known_sensitivity(problem: Any, by: str, time: Fraction) -> tuple[Fraction |
     return tuple(value if i in constant else None for i, value in enumerate(start))
 
 
-def by_variations(problem: Any, by: str) -> Along:
-    """How the Taylor route reads the derivatives: of heyoka's variational equations, by the chain rule at the start."""
-    names, pattern = problem.state_names, _pattern(problem, by)
-    starts = tuple(name for i, name in enumerate(names) if i in pattern.begun)
-    parameter = (by,) if by in problem.parameters and pattern.pushed else ()
-    return Along(_Chain(by, len(parameter)), by=(*starts, *parameter))
+@dataclass(frozen=True)
+class Variations(Along):
+    """The derivatives by an input, of heyoka's variational equations, by the chain rule at the start."""
+
+    input: str = field(kw_only=True)
+
+    def __call__(self, route: TaylorRoute, row: str, arguments: Sequence[Any]) -> Sequence[Any]:
+        problem, pattern = route.problem, _pattern(route.problem, self.input)
+        starts = tuple(name for i, name in enumerate(problem.state_names) if i in pattern.begun)
+        parameter = (self.input,) if self.input in problem.parameters and pattern.pushed else ()
+        return Along(_Chain(self.input, len(parameter)), by=(*starts, *parameter))(route, row, arguments)
 
 
 @dataclass(frozen=True)
