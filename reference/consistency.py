@@ -97,7 +97,7 @@ def _motion(problem: Problem) -> None:
         span /= 2
     with mp.workprec(BITS):
         seen = [_Seen.at(problem, span * part, span * STEP) for part in TIMES]
-        start = [mp.mpf(value.numerator) / value.denominator for value in map(Fraction, problem.start)]
+        start = [MPMATH.number(value) for value in map(Fraction, problem.start)]
         sizes = [max(abs(one.y[i]) for one in seen) for i in range(len(start))]
         for here, value, size in zip(_state(problem, span * SOON), start, sizes, strict=True):
             if abs(here - value) > BEGUN * (abs(value) + size):
@@ -122,8 +122,8 @@ class _Seen:
     @classmethod
     def at(cls, problem: Problem, t: Fraction, h: Fraction) -> _Seen:
         pairs = [(_state(problem, t + k * h), _state(problem, t - k * h)) for k in range(1, PAIRS + 1)]
-        step = mp.mpf(h.numerator) / h.denominator
-        weights = [mp.mpf(c.numerator) / c.denominator / step for c in STENCIL]
+        step = MPMATH.number(h)
+        weights = [MPMATH.number(c) / step for c in STENCIL]
         slopes = [
             mp.fsum(c * (up[i] - down[i]) for c, (up, down) in zip(weights, pairs, strict=True))
             for i in range(len(problem.start))
@@ -169,7 +169,7 @@ def _rates(problem: Problem, t: Fraction, y: list[Any]) -> list[Any]:
     Raises:
         ValueError: it asks for what there is not, or has not a slope for each component.
     """
-    time = NO_TIME if problem.autonomous else mp.mpf(t.numerator) / t.denominator
+    time = NO_TIME if problem.autonomous else MPMATH.number(t)
     try:
         found = list(problem.derivative(MPMATH, time, y, problem.parameters_in(MPMATH)))
     except KeyError as lacking:
