@@ -97,7 +97,7 @@ class Certified:
         return self._decide(  # type: ignore[no-any-return]
             lambda ball: decimal(interval(ball), count),
             lambda value: exact_decimal(value, count),
-            math.ceil(count * math.log2(10)) + 8,
+            math.ceil(count * math.log2(10)),
         )
 
     def fixed(self, places: int) -> str:

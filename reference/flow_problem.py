@@ -37,7 +37,7 @@ from reference.declaration import Quantity, Row, Trial
 from reference.names import unknown
 from reference.problem import APART, HamiltonianProblem, Problem, required
 from reference.routes.flow_events import crossing_times, crossings
-from reference.routes.proven_flow import BITS_APART, FlowSolution, lost
+from reference.routes.proven_flow import LEAST_BITS, FlowSolution, lost
 from reference.routes.sensitivity import Sensitivity, Variations, known_sensitivity
 from reference.routes.taylor import Along, Passages
 from reference.row_domains import INDEX, TIME, Whole
@@ -298,7 +298,7 @@ def _counted(problem: FlowProblem, until: Fraction) -> int:
         count = crossings(problem, ctx.prec).count(until)
         return [[BALL.number(Fraction(count)) if count is not None else BALL.number(Fraction(0)) / 0]]
 
-    bits = 2 * BITS_APART + lost(problem, until)
+    bits = LEAST_BITS + lost(problem, until)
     what = f"the number of crossings of {problem!r} up to t = {as_number(until)}"
     found = ziv(counted, lambda ball: ball if ball.is_finite() else None, 1, bits, what, COUNT_BITS)
     return int(found[0][0].unique_fmpz())

@@ -41,7 +41,9 @@ APART = Fraction(1, 1 << 36)
 SEEN, STATES = 10, 16
 """Of a motion without a period so many turns or e-foldings of its start, and so many states, are looked at."""
 SPARED_BITS = 30
-"""Bits that a flow may lose of those that guard every decision."""
+"""Bits that a flow may lose of those that guard every decision; the more of these, the fewer."""
+LEAST_LOST = 16
+"""Bits that any flow loses, about."""
 SEEN_BITS = 60
 """So many more bits than it is held against does a flow take that is held against another route."""
 ROUTE_BITS = 8192
@@ -351,12 +353,12 @@ class Problem:
     def working_bits(self, arguments: Sequence[Any]) -> int:
         """Bits that the solution in balls is expected to lose at these arguments; only speed depends on it.
 
-        Of itself those of the latest time, or what the flow is seen to lose until then.
+        Of itself those of the latest time.  Of a flow what it is seen to lose until then, beyond what it may.
         """
         latest = max((abs(t) for t in arguments if isinstance(t, Fraction)), default=Fraction(0))
         if self.has_closed_form:
             return int(latest).bit_length()
-        return max(0, proven_flow.lost(self, latest) - SPARED_BITS)
+        return max(proven_flow.lost(self, latest), LEAST_LOST) - SPARED_BITS + len(arguments).bit_length()
 
     def by_route(
         self, route: str, row: str, arguments: Sequence[Any], digits: int
@@ -370,7 +372,7 @@ class Problem:
         if not self.has_closed_form:
             latest = max((abs(t) for t in arguments if isinstance(t, Fraction)), default=Fraction(0))
             proven_flow.see(self, latest, int(digits * 3.33) + SEEN_BITS)
-        bits = int(digits * 3.33) + 2 * self.working_bits(arguments) + 30
+        bits = int(digits * 3.33) + 2 * max(0, self.working_bits(arguments)) + 30
         if route in dict(self.row(row).lacks) or bits > ROUTE_BITS:
             return None
         if route == "quadrature" and not self.has_closed_form:

@@ -205,11 +205,12 @@ def ziv(
     bits: int,
     what: str,
     max_bits: int = MAX_BITS,
+    more: Callable[[int], int] = lambda bits: 2 * bits,
 ) -> list[list[Answer]]:
-    """Ziv's loop over ``count`` rows of balls: double the precision until every ball of every row is decided.
+    """Ziv's loop over ``count`` rows of balls: raise the precision until every ball of every row is decided.
 
     ``enclose(rows)`` returns the balls of the given rows at the working precision in force; ``decide(ball)`` the one
-    answer of all its points, or None.
+    answer of all its points, or None; ``more(bits)`` the precision after one that was not enough.
 
     Raises:
         WorkBoundError: a row is undecided at ``max_bits`` bits.
@@ -228,5 +229,5 @@ def ziv(
                 if len(decided) == len(balls):
                     answers[row] = decided
         pending = [row for row in pending if row not in answers]
-        bits *= 2
+        bits = more(bits)
     return [answers[row] for row in range(count)]

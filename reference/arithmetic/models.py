@@ -16,7 +16,7 @@ from fractions import Fraction
 from operator import mul
 from typing import TYPE_CHECKING, Any
 
-from flint import arb, arb_poly
+from flint import arb, arb_poly, arb_series
 
 from reference.arithmetic.balls import BALL
 from reference.arithmetic.precision import ctx
@@ -25,7 +25,18 @@ from reference.once import cached_property
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Sequence
 
-__all__ = ["BOUND_BITS", "ModelArithmetic", "Node", "RefusedError", "Tape", "Variable", "bound", "total"]
+__all__ = [
+    "BOUND_BITS",
+    "Function",
+    "ModelArithmetic",
+    "Node",
+    "RefusedError",
+    "Tape",
+    "Variable",
+    "bound",
+    "supremum",
+    "total",
+]
 
 BOUND_BITS = 64
 """Bounds are balls of so many bits, whose exponents have no end: nothing overflows, and nothing underflows to zero."""
@@ -65,15 +76,24 @@ class Tape:
     def __init__(self) -> None:
         self.nodes: list[Node] = []
         self._made: dict[Any, Node] = {}
-        self.kept: list[Any] = []
 
     def once(self, kind: type[Node], *operands: Any) -> Node:
         """The node of an operation on these operands, which is made only once."""
-        key = (kind, *map(id, operands))
+        key = (kind, *operands)
         if key not in self._made:
-            self.kept.append(operands)
             self._made[key] = kind(self, *operands)
         return self._made[key]
+
+    def combined(self, constant: arb, parts: dict[Node, arb]) -> Any:
+        """The constant and these multiples of nodes together; a number where there are none."""
+        parts = {node: factor for node, factor in parts.items() if not factor.is_zero()}
+        if not parts:
+            return constant
+        if len(parts) == 1 and constant.is_zero():
+            ((node, factor),) = parts.items()
+            if factor == 1:
+                return node
+        return Combination(self, constant, parts)
 
     def keep(self, wanted: Iterable[Any]) -> None:
         """Drop what none of these is made of, such as the value of a Hamiltonian of which the slopes are wanted."""
@@ -84,7 +104,7 @@ class Tape:
             if node not in needed:
                 needed.add(node)
                 waiting += node.operands
-        self.nodes = [node for node in self.nodes if node in needed or isinstance(node, Variable)]
+        self.nodes = [node for node in self.nodes if node in needed]
 
     def begin(self) -> None:
         """Forget all coefficients."""
@@ -99,12 +119,14 @@ class Tape:
 
     def fill(self, order: int) -> None:
         """Give every node its coefficients up to the order, where those of the variables are known beforehand."""
-        for node in self.nodes:
-            node.fill(order)
+        with ctx.worklength(order + 1):
+            for node in self.nodes:
+                node.fill(order)
 
     def scale(self, powers: Sequence[arb]) -> None:
         """Replace each polynomial by S(h s), of which ``powers`` are the powers of h; they are rounded."""
         for node in self.nodes:
+            node.forget()
             node.terms = [term.mid() for term in map(mul, node.terms, powers)]
 
     def close(self, remainders: Sequence[arb]) -> None:
@@ -115,125 +137,77 @@ class Tape:
         """
         given = iter(remainders)
         for node in self.nodes:
-            node.forget()
             node.remainder = next(given) if isinstance(node, Variable) else node.proven()
             if not (node.remainder.is_finite() and node.remainder >= 0):
                 raise RefusedError(f"the remainder of a {type(node).__name__.lower()} is not finite")
 
 
-class Node:
-    """A function on the step: the coefficients of its polynomial, exact, and the bound of its distance from that."""
+class Function:
+    """A number and multiples of nodes together: sums and multiples are no nodes until they are operands."""
 
-    def __init__(self, tape: Tape) -> None:
-        self.tape = tape
-        self.terms: list[arb] = []
-        self.remainder = arb(0)
-        tape.nodes.append(self)
+    tape: Tape
+    constant: arb
+    parts: dict[Node, arb]
 
     @property
-    def operands(self) -> list[Node]:
-        """The nodes that it is made of."""
-        return [one for one in vars(self).values() if isinstance(one, Node)]
+    def node(self) -> Node:
+        """The node of this function."""
+        order = sorted(self.parts, key=lambda node: node.place)
+        return self.tape.once(Linear, _Told(self.constant), *((node, _Told(self.parts[node])) for node in order))
 
-    def coefficient(self, k: int) -> arb:
-        """The next coefficient, from those of the operands up to the k-th, rounded to an exact number."""
-        raise NotImplementedError
+    def factored(self) -> tuple[arb, Node]:
+        """A number and a node of which it is the product."""
+        first = min(self.parts, key=lambda node: node.place)
+        if len(self.parts) == 1 and self.constant.is_zero():
+            return self.parts[first], first
+        return (arb(-1), (-self).node) if self.parts[first] < 0 else (arb(1), self.node)
 
-    def fill(self, order: int) -> None:
-        """All coefficients up to the order, those of the operands being known."""
-        for k in range(order + 1):
-            self.terms.append(self.coefficient(k))
+    def times(self, value: Any) -> Any:
+        """A multiple by a number."""
+        return self.tape.combined(self.constant * value, {node: one * value for node, one in self.parts.items()})
 
-    def proven(self) -> arb:
-        """The remainder, from the polynomials of this node and its operands and from their remainders."""
-        raise NotImplementedError
-
-    def forget(self) -> None:
-        """The coefficients are others: what was made of them goes."""
-        for name in ("polynomial", "sizes", "norm", "swing", "slopes"):
-            self.__dict__.pop(name, None)
-
-    @cached_property
-    def polynomial(self) -> arb_poly:
-        """S."""
-        return arb_poly(self.terms)
-
-    @cached_property
-    def sizes(self) -> list[arb]:
-        """Bounds of the |S_k|."""
-        with ctx.workprec(BOUND_BITS):
-            return [term.abs_upper() for term in self.terms]
-
-    @cached_property
-    def norm(self) -> arb:
-        """A bound of ||S||."""
-        with ctx.workprec(BOUND_BITS):
-            return bound(sum(self.sizes, arb(0)))
-
-    @cached_property
-    def swing(self) -> arb:
-        """A bound of the sum of |S_k| over k >= 1: of |S(s) - S(t)|, and of the integral of |S'|."""
-        with ctx.workprec(BOUND_BITS):
-            return bound(sum(self.sizes[1:], arb(0)))
-
-    @cached_property
-    def slopes(self) -> list[arb]:
-        """The k S_k, of the polynomial so far."""
-        return []
-
-    def slope(self, k: int) -> list[arb]:
-        """1 S_1, ..., k S_k."""
-        while len(self.slopes) < k:
-            j = len(self.slopes) + 1
-            self.slopes.append((j * self.terms[j]).mid())
-        return self.slopes
-
-    @property
-    def reach(self) -> arb:
-        """A bound of |f| on the step."""
-        with ctx.workprec(BOUND_BITS):
-            return bound(self.norm + self.remainder)
+    def _inverse(self) -> Any:
+        factor, node = self.factored()
+        return self.tape.once(Inverse, node).times(1 / factor)
 
     def __add__(self, other: Any) -> Any:
-        if isinstance(other, Node):
-            return self.tape.once(Sum, self, other)
-        return self._shifted(other) if isinstance(other, NUMBERS) else NotImplemented
+        if isinstance(other, NUMBERS):
+            return self.tape.combined(self.constant + other, self.parts)
+        if not isinstance(other, Function):
+            return NotImplemented
+        parts = dict(self.parts)
+        for node, factor in other.parts.items():
+            parts[node] = parts[node] + factor if node in parts else factor
+        return self.tape.combined(self.constant + other.constant, parts)
 
-    def _shifted(self, value: Any) -> Node:
-        return self if value == 0 else Shifted(self.tape, self, _ball(value))
-
-    def _scaled(self, value: Any) -> Any:
-        """The multiple; an equation's exact zeros and ones, such as slopes of its variables, are no operations."""
-        if value == 0:
-            return arb(0)
-        if value == 1:
-            return self
-        return -self if value == -1 else Scaled(self.tape, self, _ball(value))
-
-    def __neg__(self) -> Node:
-        return self.tape.once(Negative, self)
+    def __neg__(self) -> Any:
+        return self.times(-1)
 
     def __sub__(self, other: Any) -> Any:
-        if isinstance(other, Node):
-            return self.tape.once(Difference, self, other)
-        return self._shifted(-other) if isinstance(other, NUMBERS) else NotImplemented
+        return self + -other if isinstance(other, (Function, *NUMBERS)) else NotImplemented
 
     def __rsub__(self, other: Any) -> Any:
         return -self + other
 
     def __mul__(self, other: Any) -> Any:
-        if isinstance(other, Node):
-            first, second = sorted((self, other), key=id)
-            return self.tape.once(Square, self) if self is other else self.tape.once(Product, first, second)
-        return self._scaled(other) if isinstance(other, NUMBERS) else NotImplemented
+        if isinstance(other, NUMBERS):
+            return self.times(other)
+        if not isinstance(other, Function):
+            return NotImplemented
+        factor, node = self.factored()
+        its_factor, its_node = other.factored()
+        if node is its_node:
+            return self.tape.once(Square, node).times(factor * its_factor)
+        first, second = sorted((node, its_node), key=lambda one: one.place)
+        return self.tape.once(Product, first, second).times(factor * its_factor)
 
     def __truediv__(self, other: Any) -> Any:
-        if isinstance(other, Node):
-            return self * self.tape.once(Inverse, other)
-        return self._scaled(1 / _ball(other)) if isinstance(other, NUMBERS) else NotImplemented
+        if isinstance(other, NUMBERS):
+            return self.times(1 / _ball(other))
+        return self * other._inverse() if isinstance(other, Function) else NotImplemented
 
     def __rtruediv__(self, other: Any) -> Any:
-        return self.tape.once(Inverse, self) * other
+        return self._inverse() * other
 
     def __pow__(self, power: int) -> Any:
         """f to a whole power, by products."""
@@ -259,6 +233,109 @@ class Node:
     __rmul__ = __mul__
 
 
+class Combination(Function):
+    """Some of nodes, and a number."""
+
+    def __init__(self, tape: Tape, constant: arb, parts: dict[Node, arb]) -> None:
+        self.tape, self.constant, self.parts = tape, constant, parts
+
+
+class Node(Function):
+    """A function on the step: the coefficients of its polynomial, exact, and the bound of its distance from that."""
+
+    def __init__(self, tape: Tape) -> None:
+        self.tape, self.constant, self.parts = tape, arb(0), {self: arb(1)}
+        self.terms: list[arb] = []
+        self.remainder = arb(0)
+        self.place = len(tape.nodes)
+        tape.nodes.append(self)
+
+    @property
+    def node(self) -> Node:
+        return self
+
+    @property
+    def operands(self) -> list[Node]:
+        """The nodes that it is made of."""
+        return [one for one in vars(self).values() if isinstance(one, Node)]
+
+    def coefficient(self, k: int) -> arb:
+        """The next coefficient, from those of the operands up to the k-th, rounded to an exact number."""
+        raise NotImplementedError
+
+    def fill(self, order: int) -> None:
+        """All coefficients up to the order, those of the operands being known."""
+        raise NotImplementedError
+
+    @cached_property
+    def residual(self) -> arb:
+        """What the polynomial misses its operation on those of the operands by, as the rule measures it."""
+        raise NotImplementedError
+
+    def remaining(self, residual: arb) -> arb:
+        """The remainder, from that and the remainders of the operands, in bounds."""
+        raise NotImplementedError
+
+    def proven(self) -> arb:
+        """A bound of the remainder; polynomials are of the precision in force."""
+        residual = self.residual
+        with ctx.workprec(BOUND_BITS):
+            return bound(self.remaining(residual))
+
+    def forget(self) -> None:
+        """The coefficients are others: what was made of them goes."""
+        for name in ("polynomial", "norm", "swing", "slopes", "made", "residual"):
+            self.__dict__.pop(name, None)
+
+    @cached_property
+    def polynomial(self) -> arb_poly:
+        """S."""
+        return arb_poly(self.terms)
+
+    @cached_property
+    def norm(self) -> arb:
+        """||S||."""
+        return supremum(self.polynomial)
+
+    @cached_property
+    def swing(self) -> arb:
+        """A bound of the sum of |S_k| over k >= 1: of |S(s) - S(t)|, and of the integral of |S'|."""
+        with ctx.workprec(BOUND_BITS):
+            return total(self.terms[1:])
+
+    @cached_property
+    def slopes(self) -> list[arb]:
+        """The k S_k, of the polynomial so far."""
+        return []
+
+    def slope(self, k: int) -> list[arb]:
+        """1 S_1, ..., k S_k."""
+        while len(self.slopes) < k:
+            j = len(self.slopes) + 1
+            self.slopes.append((j * self.terms[j]).mid())
+        return self.slopes
+
+    @property
+    def reach(self) -> arb:
+        """A bound of |f| on the step."""
+        with ctx.workprec(BOUND_BITS):
+            return bound(self.norm + self.remainder)
+
+
+class _Told:
+    """A ball that is known by its numbers: two of the same ones are one operand."""
+
+    def __init__(self, value: arb) -> None:
+        self.value = value
+        self._key = (value.mid().man_exp(), value.rad().man_exp()) if value.is_finite() else id(value)
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, _Told) and self._key == other._key
+
+    def __hash__(self) -> int:
+        return hash(self._key)
+
+
 def _ball(value: Any) -> arb:
     return value if isinstance(value, arb) else arb(value)
 
@@ -268,10 +345,24 @@ def _dot(a: Sequence[arb], b: Sequence[arb]) -> arb:
     return sum(map(mul, a, reversed(b)), arb(0))
 
 
-def _off(found: arb_poly) -> arb:
-    """||.|| of what should vanish."""
+def supremum(found: arb_poly) -> arb:
+    """||.||, a bound of |S(s)| for |s| <= 1: S of the ball of these s."""
     with ctx.workprec(BOUND_BITS):
-        return total(found.coeffs())
+        return bound(found(_AROUND).abs_upper())
+
+
+_AROUND = arb(0, 1)
+
+
+def _rounded(made: arb_poly | arb_series, order: int) -> list[arb]:
+    """The coefficients up to the order."""
+    found = [term.mid() for term in made.coeffs()[: order + 1]]
+    return found + [arb(0)] * (order + 1 - len(found))
+
+
+def _series(node: Node) -> arb_series:
+    """S, in as many terms as it has."""
+    return arb_series(node.terms, len(node.terms))
 
 
 class Variable(Node):
@@ -284,81 +375,45 @@ class Variable(Node):
     def coefficient(self, k: int) -> arb:
         return self._given(k)
 
+    def fill(self, order: int) -> None:
+        self.terms = [self._given(k) for k in range(order + 1)]
 
-class Sum(Node):
-    """f + g (rule 1)."""
 
-    def __init__(self, tape: Tape, a: Node, b: Node) -> None:
+class Linear(Node):
+    """c_0 + c_1 f_1 + ..., each c anywhere in a ball (rule 1)."""
+
+    def __init__(self, tape: Tape, constant: _Told, *parts: tuple[Node, _Told]) -> None:
         super().__init__(tape)
-        self.a, self.b = a, b
+        self._constant = constant.value
+        self._addends = [(node, told.value) for node, told in parts]
+        self._added = [node for node, factor in self._addends if factor == 1]
+        self._scaled = [(node, factor.mid()) for node, factor in self._addends if not factor == 1]  # noqa: SIM201 - a ball about one is neither
+
+    @property
+    def operands(self) -> list[Node]:
+        return [node for node, _ in self._addends]
 
     def coefficient(self, k: int) -> arb:
-        return (self.a.terms[k] + self.b.terms[k]).mid()
+        found = sum([node.terms[k] for node in self._added], arb(0) if k else self._constant)
+        for node, factor in self._scaled:
+            found += factor * node.terms[k]
+        return found.mid()
 
-    def proven(self) -> arb:
-        off = _off(self.a.polynomial + self.b.polynomial - self.polynomial)
-        with ctx.workprec(BOUND_BITS):
-            return bound(off + self.a.remainder + self.b.remainder)
+    def fill(self, order: int) -> None:
+        self.terms = _rounded(self.made, order)
 
+    @cached_property
+    def made(self) -> arb_poly:
+        """c_0 + c_1 A_1 + ..."""
+        return sum((factor * node.polynomial for node, factor in self._addends), arb_poly([self._constant]))
 
-class Difference(Sum):
-    """f - g (rule 1)."""
+    @cached_property
+    def residual(self) -> arb:
+        """||c_0 + c_1 A_1 + ... - S||."""
+        return supremum(self.made - self.polynomial)
 
-    def coefficient(self, k: int) -> arb:
-        return (self.a.terms[k] - self.b.terms[k]).mid()
-
-    def proven(self) -> arb:
-        off = _off(self.a.polynomial - self.b.polynomial - self.polynomial)
-        with ctx.workprec(BOUND_BITS):
-            return bound(off + self.a.remainder + self.b.remainder)
-
-
-class Negative(Node):
-    """-f."""
-
-    def __init__(self, tape: Tape, a: Node) -> None:
-        super().__init__(tape)
-        self.a = a
-
-    def coefficient(self, k: int) -> arb:
-        return -self.a.terms[k]
-
-    def proven(self) -> arb:
-        off = _off(self.polynomial + self.a.polynomial)
-        with ctx.workprec(BOUND_BITS):
-            return bound(off + self.a.remainder)
-
-
-class Shifted(Node):
-    """f + c, c anywhere in a ball (rule 1)."""
-
-    def __init__(self, tape: Tape, a: Node, value: arb) -> None:
-        super().__init__(tape)
-        self.a, self.value = a, value
-
-    def coefficient(self, k: int) -> arb:
-        return self.a.terms[k] if k else (self.a.terms[0] + self.value).mid()
-
-    def proven(self) -> arb:
-        off = _off(self.a.polynomial + self.value - self.polynomial)
-        with ctx.workprec(BOUND_BITS):
-            return bound(off + self.a.remainder)
-
-
-class Scaled(Node):
-    """c f, c anywhere in a ball (rule 1)."""
-
-    def __init__(self, tape: Tape, a: Node, value: arb) -> None:
-        super().__init__(tape)
-        self.a, self.value, self._middle = a, value, value.mid()
-
-    def coefficient(self, k: int) -> arb:
-        return (self._middle * self.a.terms[k]).mid()
-
-    def proven(self) -> arb:
-        off = _off(self.a.polynomial * self.value - self.polynomial)
-        with ctx.workprec(BOUND_BITS):
-            return bound(off + self.value.abs_upper() * self.a.remainder)
+    def remaining(self, residual: arb) -> arb:
+        return residual + sum((factor.abs_upper() * f.remainder for f, factor in self._addends), arb(0))
 
 
 class Product(Node):
@@ -372,14 +427,20 @@ class Product(Node):
         return _dot(self.a.terms[: k + 1], self.b.terms[: k + 1]).mid()
 
     def fill(self, order: int) -> None:
-        product = self.a.polynomial * self.b.polynomial
-        found = [term.mid() for term in product.truncate(order + 1).coeffs()]
-        self.terms = found + [arb(0)] * (order + 1 - len(found))
+        self.terms = _rounded(self.made, order)
 
-    def proven(self) -> arb:
-        off = _off(self.a.polynomial * self.b.polynomial - self.polynomial)
-        with ctx.workprec(BOUND_BITS):
-            return bound(off + self.a.remainder * self.b.reach + self.a.norm * self.b.remainder)
+    @cached_property
+    def made(self) -> arb_poly:
+        """AB, in full."""
+        return self.a.polynomial * self.b.polynomial
+
+    @cached_property
+    def residual(self) -> arb:
+        """||AB - S||."""
+        return supremum(self.made - self.polynomial)
+
+    def remaining(self, residual: arb) -> arb:
+        return residual + self.a.remainder * self.b.reach + self.a.norm * self.b.remainder
 
 
 class Square(Product):
@@ -411,13 +472,19 @@ class Inverse(Node):
             return (1 / self.a.terms[0]).mid()
         return -(_dot(self.a.terms[1 : k + 1], self.terms) * self.terms[0]).mid()
 
-    def proven(self) -> arb:
-        off = _off(self.a.polynomial * self.polynomial - 1)
-        with ctx.workprec(BOUND_BITS):
-            w = bound(off + self.a.remainder * self.norm)
-            if not w < 1:
-                raise RefusedError("a divisor may vanish")
-            return bound(self.norm * w / (1 - w))
+    def fill(self, order: int) -> None:
+        self.terms = _rounded(1 / _series(self.a), order)
+
+    @cached_property
+    def residual(self) -> arb:
+        """||1 - AS||."""
+        return supremum(self.a.polynomial * self.polynomial - 1)
+
+    def remaining(self, residual: arb) -> arb:
+        w = bound(residual + self.a.remainder * self.norm)
+        if not w < 1:
+            raise RefusedError("a divisor may vanish")
+        return self.norm * w / (1 - w)
 
 
 class Root(Node):
@@ -438,16 +505,22 @@ class Root(Node):
             return (self.a.terms[1] / (2 * self.terms[0])).mid()
         return ((self.a.terms[k] - _square(self.terms[1:])) / (2 * self.terms[0])).mid()
 
-    def proven(self) -> arb:
-        off = _off(self.polynomial * self.polynomial - self.a.polynomial)
-        with ctx.workprec(BOUND_BITS):
-            low = self.terms[0] - self.swing
-            if not low > 0:
-                raise RefusedError("what is under a root may vanish")
-            w = bound((off + self.a.remainder) / (low * low))
-            if not w <= 1:
-                raise RefusedError("what is under a root may vanish")
-            return bound(self.norm * w)
+    def fill(self, order: int) -> None:
+        self.terms = _rounded(_series(self.a).sqrt(), order)
+
+    @cached_property
+    def residual(self) -> arb:
+        """||S^2 - A||."""
+        return supremum(self.polynomial * self.polynomial - self.a.polynomial)
+
+    def remaining(self, residual: arb) -> arb:
+        low = self.terms[0] - self.swing
+        if not low > 0:
+            raise RefusedError("what is under a root may vanish")
+        w = bound((residual + self.a.remainder) / (low * low))
+        if not w <= 1:
+            raise RefusedError("what is under a root may vanish")
+        return self.norm * w
 
 
 class Exponential(Node):
@@ -466,12 +539,19 @@ class Exponential(Node):
             return self.a.terms[0].exp().mid()
         return (_dot(self.a.slope(k)[:k], self.terms) / k).mid()
 
-    def proven(self) -> arb:
+    def fill(self, order: int) -> None:
+        self.terms = _rounded(_series(self.a).exp(), order)
+
+    @cached_property
+    def residual(self) -> arb:
+        """t: what |exp A - S| is at most."""
         off = _integrated(self.a, self, self)
         start = (self.a.terms[0].exp() - self.terms[0]).abs_upper()
         with ctx.workprec(BOUND_BITS):
-            far = bound(self.a.swing.exp() * (start + off))
-            return bound(far + self.a.remainder.expm1() * (self.norm + far))
+            return bound(self.a.swing.exp() * (start + off))
+
+    def remaining(self, residual: arb) -> arb:
+        return residual + self.a.remainder.expm1() * (self.norm + residual)
 
 
 def _integrated(x: Node, factor: Node, found: Node, sign: int = 1) -> arb:
@@ -502,10 +582,13 @@ class _Pair(Node):
             return self.starts(self.a.terms[0])[0].mid()
         return (_dot(self.a.slope(k)[:k], self.other.terms[:k]) / k).mid()
 
+    @staticmethod
+    def series(x: arb_series) -> tuple[arb_series, arb_series]:
+        """Both of a series."""
+        raise NotImplementedError
+
     def fill(self, order: int) -> None:
-        for k in range(order + 1):
-            self.terms.append(self.coefficient(k))
-            self.other.terms.append(self.follow(k))
+        self.terms, self.other.terms = (_rounded(one, order) for one in self.series(_series(self.a)))
 
     def follow(self, k: int) -> arb:
         """The coefficient of the second function."""
@@ -513,7 +596,8 @@ class _Pair(Node):
             return self.starts(self.a.terms[0])[1].mid()
         return (self.sign * _dot(self.a.slope(k)[:k], self.terms[:k]) / k).mid()
 
-    def apart(self) -> arb:
+    @cached_property
+    def residual(self) -> arb:
         """A bound of the integrals of both defects, and of both errors at the start."""
         first, second = self.starts(self.a.terms[0])
         off = _integrated(self.a, self.other, self), _integrated(self.a, self, self.other, self.sign)
@@ -552,11 +636,12 @@ class Circular(_Pair):
     def starts(x: arb) -> tuple[arb, arb]:
         return x.sin(), x.cos()
 
-    def proven(self) -> arb:
-        self.other.forget()
-        apart = self.apart()
-        with ctx.workprec(BOUND_BITS):
-            return bound(apart + self.a.remainder)
+    @staticmethod
+    def series(x: arb_series) -> tuple[arb_series, arb_series]:
+        return x.sin_cos()  # type: ignore[no-any-return]
+
+    def remaining(self, residual: arb) -> arb:
+        return residual + self.a.remainder
 
 
 class Hyperbolic(_Pair):
@@ -568,13 +653,15 @@ class Hyperbolic(_Pair):
     def starts(x: arb) -> tuple[arb, arb]:
         return x.sinh(), x.cosh()
 
-    def proven(self) -> arb:
-        self.other.forget()
-        apart = self.apart()
-        with ctx.workprec(BOUND_BITS):
-            far = bound(self.a.swing.exp() * apart)
-            moved = self.a.remainder.expm1()
-            return bound(far + moved * (self.norm + self.other.norm + 2 * far))
+    @staticmethod
+    def series(x: arb_series) -> tuple[arb_series, arb_series]:
+        grown = x.exp()
+        return (grown - 1 / grown) / 2, (grown + 1 / grown) / 2
+
+    def remaining(self, residual: arb) -> arb:
+        far = bound(self.a.swing.exp() * residual)
+        moved = self.a.remainder.expm1()
+        return far + moved * (self.norm + self.other.norm + 2 * far)
 
 
 class ByDerivative(Node):
@@ -592,12 +679,21 @@ class ByDerivative(Node):
             return self._function(self.a.terms[0]).mid()
         return (_dot(self.a.slope(k)[:k], self.rate.terms[:k]) / k).mid()
 
-    def proven(self) -> arb:
+    def fill(self, order: int) -> None:
+        moved = (self.a.polynomial.derivative() * self.rate.polynomial).integral()
+        self.terms = _rounded(moved + self._function(self.a.terms[0]), order)
+
+    @cached_property
+    def residual(self) -> arb:
+        """|g(A_0) - S_0| and the integral of |A'W - S'|."""
         off = _integrated(self.a, self.rate, self)
         start = (self._function(self.a.terms[0]) - self.terms[0]).abs_upper()
         with ctx.workprec(BOUND_BITS):
-            steep = self.rate.remainder * self.a.swing
-            return bound(start + off + steep + self.a.remainder * self.rate.reach)
+            return bound(start + off)
+
+    def remaining(self, residual: arb) -> arb:
+        steep = self.rate.remainder * self.a.swing
+        return residual + steep + self.a.remainder * self.rate.reach
 
 
 class ModelArithmetic:
@@ -616,21 +712,21 @@ class ModelArithmetic:
         return arb.pi()
 
     def _pair(self, x: Any, kind: type[_Pair]) -> Node:
-        return self.tape.once(kind, x)
+        return self.tape.once(kind, x.node)
 
     def sin(self, x: Any) -> Any:
-        return self._pair(x, Circular) if isinstance(x, Node) else _ball(x).sin()
+        return self._pair(x, Circular) if isinstance(x, Function) else _ball(x).sin()
 
     def cos(self, x: Any) -> Any:
-        return self._second(x, Circular) if isinstance(x, Node) else _ball(x).cos()
+        return self._second(x, Circular) if isinstance(x, Function) else _ball(x).cos()
 
     def sinh(self, x: Any) -> Any:
-        return self._pair(x, Hyperbolic) if isinstance(x, Node) else _ball(x).sinh()
+        return self._pair(x, Hyperbolic) if isinstance(x, Function) else _ball(x).sinh()
 
     def cosh(self, x: Any) -> Any:
-        return self._second(x, Hyperbolic) if isinstance(x, Node) else _ball(x).cosh()
+        return self._second(x, Hyperbolic) if isinstance(x, Function) else _ball(x).cosh()
 
-    def _second(self, x: Node, kind: type[_Pair]) -> Node:
+    def _second(self, x: Function, kind: type[_Pair]) -> Node:
         pair: Any = self._pair(x, kind)
         second: Node = pair.other
         return second
@@ -642,10 +738,10 @@ class ModelArithmetic:
         return self.sinh(x) / self.cosh(x)
 
     def exp(self, x: Any) -> Any:
-        return self.tape.once(Exponential, x) if isinstance(x, Node) else _ball(x).exp()
+        return self.tape.once(Exponential, x.node) if isinstance(x, Function) else _ball(x).exp()
 
     def sqrt(self, x: Any) -> Any:
-        return self.tape.once(Root, x) if isinstance(x, Node) else _ball(x).sqrt()
+        return self.tape.once(Root, x.node) if isinstance(x, Function) else _ball(x).sqrt()
 
     def log(self, x: Any) -> Any:
         return self._of(x, "log", lambda a: 1 / a)
@@ -661,15 +757,16 @@ class ModelArithmetic:
 
     def _of(self, x: Any, name: str, rate: Callable[[Any], Any]) -> Any:
         function = getattr(arb, name)
-        if not isinstance(x, Node):
+        if not isinstance(x, Function):
             return function(_ball(x))
-        if (name, x) not in self._known:
-            self._known[name, x] = ByDerivative(self.tape, x, rate(x), function)
-        return self._known[name, x]
+        node = x.node
+        if (name, node) not in self._known:
+            self._known[name, node] = ByDerivative(self.tape, node, rate(node).node, function)
+        return self._known[name, node]
 
     def power(self, x: Any, exponent: Fraction) -> Any:
         """x to a rational power: by products, by a root and products, else exp(e log x)."""
-        if not isinstance(x, Node):
+        if not isinstance(x, Function):
             return BALL.power(_ball(x), exponent)
         exponent = Fraction(exponent)
         if exponent.denominator == 1:

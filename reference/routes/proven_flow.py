@@ -19,13 +19,25 @@ from fractions import Fraction
 from functools import lru_cache, reduce
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
 from flint import arb, arb_mat, arb_poly
 
 from reference.arithmetic.balls import BALL
 from reference.arithmetic.dual import Dual, DualArithmetic
 from reference.arithmetic.limbs import WorkBoundError
-from reference.arithmetic.models import BOUND_BITS, ModelArithmetic, Node, RefusedError, Tape, Variable, bound, total
+from reference.arithmetic.models import (
+    BOUND_BITS,
+    Function,
+    ModelArithmetic,
+    Node,
+    RefusedError,
+    Tape,
+    Variable,
+    bound,
+    supremum,
+)
 from reference.arithmetic.precision import ctx
+from reference.once import cached_property
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -42,10 +54,10 @@ LITTLE = Fraction(1, 16)
 """A horizon that twice the bits extend by no more than that part is one of the equation, and not of the precision."""
 KEPT = 3
 """Equations whose flows are kept with their pieces, and flows of each, of other precisions."""
-BITS_APART = 53
-"""Working precisions of flows are multiples of so many bits, and at least two."""
-VARIATIONAL_BITS = 100
-"""The derivative of a step's map is known to about so many bits: it multiplies errors, which need no more."""
+LEAST_BITS, BITS_APART = 96, 16
+"""Working precisions of flows: at least so many bits, and multiples of so many."""
+VARIATIONAL_BITS = 53
+"""df/dy is read in so many bits, and the derivative of a step's map found in doubles: errors need no more."""
 PARTS = 2
 """Parts of a step on each of which df/dy is enclosed."""
 TRIES = 40
@@ -56,6 +68,10 @@ SPARE = 10
 """A step whose own error comes to more than 2^SPARE roundings is halved, as long as that makes it smaller."""
 GAIN = 8
 """Bits that halving a step has to gain."""
+DECAY = 1.4
+"""Terms fall off by e^DECAY from one to the next where a step has its length: longer steps take more terms."""
+MOST_TERMS = 128
+"""Terms of the derivative of a step's map, at most: it is nearly an exponential, and a stiff one takes many."""
 SIDES = 10
 """Up to so many components a parallelepiped of errors is carried: it costs products of matrices in each step."""
 
@@ -100,8 +116,14 @@ class ProvenFlow:
     """
 
     def __init__(self, equation: Equation, bits: int, steps: int) -> None:
-        self.equation, self.bits = equation, bits
-        self._sides = {sign: _Side(equation, bits, sign, steps) for sign in (1, -1)}
+        self.equation, self.bits, self._steps = equation, bits, steps
+        self._sides: dict[int, _Side] = {}
+
+    def _side(self, sign: int) -> _Side:
+        """One side of the start, from the first time on that it is asked for."""
+        if sign not in self._sides:
+            self._sides[sign] = _Side(self.equation, self.bits, sign, self._steps)
+        return self._sides[sign]
 
     def at(self, time: Fraction) -> list[arb]:
         """The state at a time, in balls.
@@ -110,7 +132,7 @@ class ProvenFlow:
             WorkBoundError: the work bound is met before; the sentence says up to which time it is proven.
         """
         with ctx.workprec(self.bits):
-            return self._sides[-1 if time < 0 else 1].piece(time).at(time)
+            return self._side(-1 if time < 0 else 1).piece(time).at(time)
 
     def piece(self, place: int) -> Piece:
         """A piece after the start, counted from 0.
@@ -118,23 +140,23 @@ class ProvenFlow:
         Raises:
             WorkBoundError: the work bound is met before.
         """
-        side = self._sides[1]
+        side = self._side(1)
         while len(side.pieces) <= place:
             side.piece(side.reached + Fraction(1, 2**self.bits))
         return side.pieces[place]
 
     def reaches(self, time: Fraction) -> bool:
         """Whether it is proven to a time."""
-        side = self._sides[-1 if time < 0 else 1]
+        side = self._side(-1 if time < 0 else 1)
         return bool(side.pieces) and abs(time) <= abs(side.reached)
 
     def pieces(self, sign: int) -> Sequence[Piece]:
         """What is proven so far of one side, in order."""
-        return self._sides[sign].pieces
+        return self._side(sign).pieces
 
     def lost(self, sign: int) -> tuple[Fraction, float]:
         """How far one side is proven, and how many bits are lost there, of the largest component."""
-        side = self._sides[sign]
+        side = self._side(sign)
         largest = max((float(abs(value)) for value in side.middle), default=0.0)
         error = max((_log2(value) for value in side.errors.sides if value != 0), default=-math.inf)
         return abs(side.reached), max(0.0, error + self.bits - math.log2(largest or 1.0))
@@ -149,15 +171,16 @@ class _Side:
         self._ends: list[Fraction] = []
         self.reached = Fraction(0)
         self._usual: float = SPARE
-        self.order = math.ceil(bits * math.log(2) / 2)
+        self.order = _order(bits)
         with ctx.workprec(bits):
             start = equation.start_in(BALL)
             sides = [bound(value.rad()) for value in start]
             self.middle = [value.mid() for value in start]
             self._reading = _Reading(equation)
+        self._variation = _Variation(equation)
         self.errors: _Box | _Parallelepiped = _Box(sides)
         if len(start) <= SIDES:
-            self.errors = _Parallelepiped(_unit(len(start)), sides, _Turning(equation))
+            self.errors = _Parallelepiped(_unit(len(start)), sides)
 
     def piece(self, time: Fraction) -> Piece:
         """The piece on which a time lies."""
@@ -222,15 +245,15 @@ class _Side:
         with ctx.workprec(BOUND_BITS):
             off = [(value - one.terms[0]).abs_upper() for value, one in zip(self.middle, variables, strict=True)]
             begun = [bound(side + one) for side, one in zip(errors.sides, off, strict=True)]
-            tube = _Tube(self.equation, variables, _exact(self.reached), _exact(h), begun, defects)
-            local = tube.end(off, defects)
+            tube = _Tube(self._variation, variables, _exact(self.reached), _exact(h), begun, defects)
+            local = tube.end(off)
             # a component that begins at zero may have no term of the polynomial's order yet
             floor = reduce(larger, (one.norm for one in variables)) * arb(2) ** -self.bits
             units = (larger(one.norm, floor) for one in variables)
             roundings = max(self._roundings(*pair) for pair in zip(local, units, strict=True))
             if self._usual < roundings < gained:
                 raise RefusedError("the step is too long", roundings)
-            moved = errors.moved(tube, defects, off, local, [bound(end.rad()) for end in ends])
+            moved = errors.moved(tube, off, local, [bound(end.rad()) for end in ends])
         self.pieces.append(Piece(self.reached, h, tuple(one.polynomial for one in variables), tuple(tube.errors)))
         self.reached += h
         self._ends.append(abs(self.reached))
@@ -242,6 +265,11 @@ class _Side:
         if error == 0:
             return -math.inf
         return _log2(error) + self.bits - _log2(unit) if unit != 0 else math.inf
+
+
+def _order(bits: int) -> int:
+    """Terms of polynomials of which each is e^DECAY times as small as that before it, to so many bits."""
+    return math.ceil(bits * math.log(2) / DECAY)
 
 
 def _exact(value: Fraction) -> arb:
@@ -294,8 +322,9 @@ class _Reading:
             ) from error
         except AttributeError as error:
             raise ValueError(f"the equation of {equation!r} asks for '{error.name}', which a flow has not.") from error
-        self.rates = [rate if isinstance(rate, Node) else _constant(rate) for rate in rates]
-        self.tape.keep(self.rates)
+        self.rates = [_entry(rate) for rate in rates]
+        self.tape.keep([*self.variables, *self.rates])
+        self._parts: list[arb] = []
 
     def _component(self, place: int) -> Callable[[int], arb]:
         def given(k: int) -> arb:
@@ -303,7 +332,7 @@ class _Reading:
                 return self._start[place]
             rate = self.rates[place]
             if isinstance(rate, Node):
-                return (rate.terms[k - 1] / k).mid()
+                return (rate.terms[k - 1] * self._parts[k]).mid()
             return rate.mid() if k == 1 else arb(0)
 
         return given
@@ -311,6 +340,7 @@ class _Reading:
     def grow(self, t: Fraction, start: Sequence[arb], order: int) -> None:
         """The coefficients of the solution from an exact state, up to the order, by t itself."""
         self._t, self._start = _exact(t), list(start)
+        self._parts = self._parts or [arb(0), *((1 / arb(k)).mid() for k in range(1, order + 1))]
         self.tape.begin()
         for k in range(order + 1):
             self.tape.grow(k)
@@ -329,12 +359,17 @@ def _constant(value: Any) -> arb:
     return BALL.number(value) if isinstance(value, Fraction) else arb(value)
 
 
+def _entry(value: Any) -> Node | arb:
+    """What was read of an equation: a node, or a number."""
+    return value.node if isinstance(value, Function) else _constant(value)
+
+
 def _defect(variable: Node, rate: Node | arb, h: arb) -> arb:
     found = rate.polynomial if isinstance(rate, Node) else arb_poly([rate])
     off = variable.polynomial.derivative() - h * found
     with ctx.workprec(BOUND_BITS):
         missed = abs(h) * rate.remainder if isinstance(rate, Node) else arb(0)
-        return bound(total(off.coeffs()) + missed)
+        return bound(supremum(off) + missed)
 
 
 class _Tube:
@@ -348,44 +383,28 @@ class _Tube:
 
     def __init__(
         self,
-        equation: Equation,
+        variation: _Variation,
         variables: Sequence[Variable],
         time: arb,
         step: arb,
         sides: Sequence[arb],
         defects: Sequence[arb],
     ) -> None:
-        self.variables, self.time, self.step, self._equation = variables, time, step, equation
+        self.variation, self._defects = variation, defects
         driven = [bound(side + defect) for side, defect in zip(sides, defects, strict=True)]
-        swept = [[one.polynomial(_part(j)) for one in variables] for j in range(PARTS)]
         largest = reduce(larger, (one.norm for one in variables)) * arb(2) ** -64
         least = [larger(one.norm, largest) * arb(2) ** -40 for one in variables]
         room = [bound(4 * one + small) for one, small in zip(driven, least, strict=True)]
+        variation.follow(variables, time, step)
         for _ in range(4):
-            self._slopes = [self._slope(j, swept[j], room) for j in range(PARTS)]
+            variation.close(room)
+            self._slopes = [variation.slopes(_part(j)) for j in range(PARTS)]
             self.growth = self._grown([_positive(slopes) for slopes in self._slopes])
             self.errors = _times(self.growth, driven)
             if all(error < one for error, one in zip(self.errors, room, strict=True)):
                 return
             room = [bound(4 * larger(error, one)) for error, one in zip(self.errors, room, strict=True)]
         raise RefusedError("no room around the step is enough")
-
-    def _slope(self, j: int, swept: Sequence[arb], room: Sequence[arb]) -> list[list[arb]]:
-        """h df/dy on the box around a part of the step."""
-        width = len(swept)
-        duals = DualArithmetic(BALL, width)
-        boxes = [duals.variable(one + arb(0, side), i) for i, (one, side) in enumerate(zip(swept, room, strict=True))]
-        p = {name: BALL.number(value) for name, value in self._equation.parameters.items()}
-        time = self.time + self.step * _part(j)
-        found = []
-        for rate in self._equation.derivative(duals, time, boxes, p):
-            value, slopes = (
-                (rate.value, rate.slopes) if isinstance(rate, Dual) else (_constant(rate), (arb(0),) * width)
-            )
-            if not all(one.is_finite() for one in (value, *slopes)):
-                raise RefusedError("the equation or its derivative is not finite around the step")
-            found.append([self.step * slope for slope in slopes])
-        return found
 
     def _grown(self, parts: Sequence[Sequence[Sequence[arb]]]) -> arb_mat:
         size = len(parts[0])
@@ -394,25 +413,30 @@ class _Tube:
             found = _upper((arb_mat([list(row) for row in part]) / PARTS).exp() * found)
         return found
 
-    @property
-    def stretch(self) -> float:
-        """The norm of h df/dy about the start of the step, about."""
-        return max(sum(float(one.abs_upper()) for one in row) for row in self._slopes[0])
-
-    def end(self, sides: Sequence[arb], defects: Sequence[arb]) -> list[arb]:
+    def end(self, sides: Sequence[arb]) -> list[arb]:
         """A bound of the errors at the end of the step from those at its start (rule 11)."""
-        found, largest = list(sides), reduce(larger, defects)
-        if largest == 0:
-            largest = arb(1)
-        driven = [bound(defect / largest / PARTS) for defect in defects]
+        found = list(sides)
+        for grown in self._ends:
+            found = _times(grown, [*found, self._largest])[:-1]
+        return found
+
+    @cached_property
+    def _largest(self) -> arb:
+        found = reduce(larger, self._defects)
+        return found if found != 0 else arb(1)
+
+    @cached_property
+    def _ends(self) -> list[arb_mat]:
+        """Of each part of the step, the exponential from which rule 11 reads its two factors."""
+        driven = [bound(defect / self._largest / PARTS) for defect in self._defects]
+        found = []
         for slopes in self._slopes:
             metzler = [
                 [value.upper() if i == j else value.abs_upper() for j, value in enumerate(row)]
                 for i, row in enumerate(slopes)
             ]
             rows = [[*(value / PARTS for value in row), push] for row, push in zip(metzler, driven, strict=True)]
-            grown = _upper(arb_mat([*rows, [arb(0)] * (len(found) + 1)]).exp())
-            found = _times(grown, [*found, largest])[:-1]
+            found.append(_upper(arb_mat([*rows, [arb(0)] * (len(driven) + 1)]).exp()))
         return found
 
 
@@ -454,40 +478,31 @@ class _Box:
     def __init__(self, sides: Sequence[arb]) -> None:
         self.sides = list(sides)
 
-    def moved(
-        self, tube: _Tube, defects: Sequence[arb], off: Sequence[arb], local: Sequence[arb], rounded: Sequence[arb]
-    ) -> _Box:
+    def moved(self, tube: _Tube, off: Sequence[arb], local: Sequence[arb], rounded: Sequence[arb]) -> _Box:
         """The errors after the step; its start is ``off`` the midpoint, and its end ``rounded`` off the new one."""
         del local
-        found = tube.end([bound(side + one) for side, one in zip(self.sides, off, strict=True)], defects)
+        found = tube.end([bound(side + one) for side, one in zip(self.sides, off, strict=True)])
         return _Box([bound(one + off) for one, off in zip(found, rounded, strict=True)])
 
 
 class _Parallelepiped:
     """Errors A b, |b| <= B in each component: A is exact, and about orthogonal (rule 14)."""
 
-    def __init__(self, a: arb_mat, b: Sequence[arb], turning: _Turning) -> None:
-        self.a, self.b, self._turning = a, list(b), turning
+    def __init__(self, a: arb_mat, b: Sequence[arb]) -> None:
+        self.a, self.b = a, list(b)
         self.sides = _times(_sizes(a), self.b)
 
-    def moved(
-        self, tube: _Tube, defects: Sequence[arb], off: Sequence[arb], local: Sequence[arb], rounded: Sequence[arb]
-    ) -> _Parallelepiped:
+    def moved(self, tube: _Tube, off: Sequence[arb], local: Sequence[arb], rounded: Sequence[arb]) -> _Parallelepiped:
         """The errors after the step, its own ``local`` ones among them."""
-        boxed = _Box(self.sides).moved(tube, defects, off, local, rounded)
-        with ctx.workprec(VARIATIONAL_BITS):
-            added = [bound(one + off) for one, off in zip(local, rounded, strict=True)]
-            turned = self._turning.derivative(tube) * self.a
-            q = _orthogonal(turned, self.b)
-            try:
-                back = q.inv()
-            except ZeroDivisionError:
-                raise RefusedError("the derivative of the step's map is not known: its step is too long") from None
-            carried, begun = _times(_sizes(back * turned), self.b), _times(_sizes(back), added)
-            sides = [bound(one + other) for one, other in zip(carried, begun, strict=True)]
-            turned_on = _Parallelepiped(q, sides, self._turning)
+        boxed = _Box(self.sides).moved(tube, off, local, rounded)
+        added = [bound(one + off) for one, off in zip(local, rounded, strict=True)]
+        turned = tube.variation.derivative(tube.growth) * self.a
+        q = _orthogonal(turned, self.b)
+        back = q.inv()
+        carried, begun = _times(_sizes(back * turned), self.b), _times(_sizes(back), added)
+        turned_on = _Parallelepiped(q, [bound(one + other) for one, other in zip(carried, begun, strict=True)])
         if all(one < other for one, other in zip(boxed.sides, turned_on.sides, strict=True)):
-            return _Parallelepiped(_unit(len(sides)), boxed.sides, self._turning)
+            return _Parallelepiped(_unit(len(self.b)), boxed.sides)
         return turned_on
 
 
@@ -497,113 +512,128 @@ def _unit(size: int) -> arb_mat:
 
 
 def _orthogonal(matrix: arb_mat, lengths: Sequence[arb]) -> arb_mat:
-    """Exact columns that are about orthonormal, the longest of the matrix's columns first; the unit matrix where a
-    column is none.
+    """Exact columns that are about orthonormal, the longest of the matrix's columns first; the unit matrix where they
+    are beyond the range of doubles.
     """
     size = matrix.nrows()
-    columns = [[matrix[i, j].mid() for i in range(size)] for j in range(size)]
-
-    def length(j: int) -> float:
-        squares = sum((value * value for value in columns[j]), arb(0)) * lengths[j] * lengths[j]
-        return _log2(squares.mid()) if squares.mid() != 0 else -math.inf
-
-    found: list[list[arb]] = []
-    for j in sorted(range(size), key=length, reverse=True):
-        column = columns[j]
-        for known in found:
-            along = sum((a * b for a, b in zip(known, column, strict=True)), arb(0)).mid()
-            column = [(value - along * other).mid() for value, other in zip(column, known, strict=True)]
-        norm = sum((value * value for value in column), arb(0)).mid().sqrt().mid()
-        if not norm > 0:
-            return _unit(size)
-        found.append([(value / norm).mid() for value in column])
-    return arb_mat([[column[i] for column in found] for i in range(size)])
+    columns = np.array([float(one.mid()) for one in matrix.entries()]).reshape(size, size)
+    norms = np.abs(columns).max(axis=0)
+    if not (np.isfinite(norms).all() and norms.all()):
+        return _unit(size)
+    logs = [_log2(length) if length != 0 else -math.inf for length in lengths]
+    order = np.argsort(-(np.log2(norms) + logs), kind="stable")
+    return arb_mat(np.linalg.qr(columns[:, order] / norms[order])[0].tolist())
 
 
-class _Turning:
-    """The derivative of a step's map by its start, from the variational equation V' = h df/dy V (rule 13)."""
+class _Variation:
+    """df/dy about the polynomials of a step, read once in nodes of few bits; and the derivative of the step's map by
+    its start, from the variational equation V' = h df/dy V (rule 13).
+    """
 
     def __init__(self, equation: Equation) -> None:
-        self._order = math.ceil(VARIATIONAL_BITS * math.log(2) / 2)
+        self._order = _order(VARIATIONAL_BITS)
         self._tape = Tape()
+        self._size = size = len(equation.state_names)
+        self._known: list[list[arb]] = []
+        self._h = arb(0)
         with ctx.workprec(VARIATIONAL_BITS):
-            m = ModelArithmetic(self._tape)
-            self._size = len(equation.state_names)
-            duals: Any = DualArithmetic(m, self._size)  # type: ignore[arg-type]
-            self._start: list[list[arb]] = []
-            self._time: tuple[arb, arb] = arb(0), arb(0)
-            y = [Variable(self._tape, lambda k, i=i: self._start[i][k]) for i in range(self._size)]  # type: ignore[misc]
-            time = Variable(self._tape, lambda k: self._time[k] if k < 2 else arb(0))
-            state = [duals.variable(one, i) for i, one in enumerate(y)]
+            duals: Any = DualArithmetic(ModelArithmetic(self._tape), size)  # type: ignore[arg-type]
+            variables = [Variable(self._tape, lambda k, i=i: self._known[i][k]) for i in range(size + 1)]  # type: ignore[misc]
+            state = [duals.variable(one, i) for i, one in enumerate(variables[:-1])]
             p = {name: BALL.number(value) for name, value in equation.parameters.items()}
-            rates = equation.derivative(duals, time, state, p)
-        zeros = (arb(0),) * self._size
-        slopes = [rate.slopes if isinstance(rate, Dual) else zeros for rate in rates]
-        self._slopes = [[one if isinstance(one, Node) else _constant(one) for one in row] for row in slopes]
-        self._tape.keep(one for row in self._slopes for one in row)
+            rates = equation.derivative(duals, variables[-1], state, p)
+            zeros = (arb(0),) * size
+            self._rows = [[_entry(one) for one in (rate.slopes if isinstance(rate, Dual) else zeros)] for rate in rates]
+            values = [_entry(rate.value if isinstance(rate, Dual) else rate) for rate in rates]
+        self._constants = [
+            one for one in (*values, *(one for row in self._rows for one in row)) if isinstance(one, arb)
+        ]
+        self._tape.keep([*variables, *(one for row in (values, *self._rows) for one in row)])
 
-    def derivative(self, tube: _Tube) -> arb_mat:
-        """What the map's derivative lies in, at every start of the tube; the precision in force is VARIATIONAL_BITS.
+    def follow(self, variables: Sequence[Variable], time: arb, h: arb) -> None:
+        """Take the polynomials of a step, in fewer terms and bits.
 
         Raises:
-            RefusedError: a rule has no answer on the step.
+            RefusedError: what is constant in the equation or its derivative is not finite.
         """
-        h, variables = tube.step, tube.variables
-        order = self._order_for(tube.stretch, len(variables[0].terms) - 1)
-        self._start = [[(term * 1).mid() for term in one.terms[: order + 1]] for one in variables]
-        self._time = tube.time, h
-        self._tape.begin()
-        self._tape.fill(order)
-        apart = [
-            bound(error + total((one.polynomial - arb_poly(known)).coeffs()))
-            for one, known, error in zip(variables, self._start, tube.errors, strict=True)
+        if not all(one.is_finite() for one in self._constants):
+            raise RefusedError("the equation or its derivative is not finite")
+        order = min(self._order, len(variables[0].terms) - 1)
+        with ctx.workprec(VARIATIONAL_BITS):
+            self._known = [[(term * 1).mid() for term in one.terms[: order + 1]] for one in variables]
+            missed = [one.polynomial - arb_poly(known) for one, known in zip(variables, self._known, strict=True)]
+            self._cut = [supremum(one) for one in missed]
+            clock = [(time * 1).mid(), (h * 1).mid()]
+            self._cut.append(bound((time - clock[0]).abs_upper() + (h - clock[1]).abs_upper()))
+            self._known.append([*clock, *[arb(0)] * order])
+            self._h = h
+            self._tape.begin()
+            self._tape.fill(order)
+
+    def close(self, room: Sequence[arb]) -> None:
+        """Enclose f and df/dy at all that is within the room of the polynomials.
+
+        Raises:
+            RefusedError: they are not known to be finite there.
+        """
+        self._tape.close([bound(one + cut) for one, cut in zip((*room, arb(0)), self._cut, strict=True)])
+
+    def slopes(self, s: arb) -> list[list[arb]]:
+        """h df/dy there, on a part of the step."""
+        return [
+            [self._h * (one.polynomial(s) + arb(0, one.remainder) if isinstance(one, Node) else one) for one in row]
+            for row in self._rows
         ]
-        self._tape.close([*apart, arb(0)])
-        columns = self._columns(h, order)
-        defects = self._defects(h, columns)
+
+    def derivative(self, growth: arb_mat) -> arb_mat:
+        """What the derivative of the step's map lies in, at every start of which the solution is in the room."""
+        found, size = self._columns(), range(self._size)
+        columns = [[arb_poly(found[:, i, j].tolist()) for i in size] for j in size]
+        defects = self._defects(columns)
         ends = []
         for j, column in enumerate(columns):
-            off = _times(tube.growth, [row[j] for row in defects])
+            off = _times(growth, [row[j] for row in defects])
             ends.append([one(arb(1)) + arb(0, error) for one, error in zip(column, off, strict=True)])
         return arb_mat([list(row) for row in zip(*ends, strict=True)])
 
-    def _order_for(self, stretch: float, most: int) -> int:
-        """Terms of the exponential of a matrix of this norm, to VARIATIONAL_BITS, and at most so many."""
-        order, size = self._order, math.log2(max(1.0, stretch))
-        while order < most and order * size - math.lgamma(order + 1) / math.log(2) > -VARIATIONAL_BITS:
-            order += self._order // 4
-        return min(order, most)
-
-    def _columns(self, h: arb, order: int) -> list[list[arb_poly]]:
-        """V column by column: (k + 1) V_{k+1} = h sum_i J_i V_{k-i}, rounded."""
-        size = range(self._size)
-        known = [
-            [one.terms if isinstance(one, Node) else [one, *[arb(0)] * order] for one in row] for row in self._slopes
-        ]
-        slopes = [arb_mat([[(h * one[k]).mid() for one in row] for row in known]) for k in range(order)]
-        found = [_unit(self._size)]
+    def _columns(self) -> np.ndarray:
+        """The coefficients of V, about which nothing is claimed: (k + 1) V_{k+1} = h sum_i J_i V_{k-i}, in doubles."""
+        size, terms = self._size, len(self._known[0])
+        slopes = np.zeros((size, terms, size))
+        for i, row in enumerate(self._rows):
+            for j, one in enumerate(row):
+                known = one.terms if isinstance(one, Node) else [one]
+                slopes[i, : len(known), j] = [float(term) for term in known]
+        flat = float(self._h) * slopes.reshape(size, -1)
+        order = self._order_for(np.abs(flat[:, :size]).sum(axis=1).max())
+        backward = np.zeros(((order + 1) * size, size))  # V_order, ..., V_0, one below the other
+        backward[-size:] = np.eye(size)
         for k in range(order):
-            moved = slopes[0] * found[k]
-            for slope, one in zip(slopes[1 : k + 1], reversed(found[:k]), strict=True):
-                moved += slope * one
-            found.append((moved / (k + 1)).mid())
-        entries = [one.entries() for one in found]
-        return [[arb_poly([one[i * self._size + j] for one in entries]) for i in size] for j in size]
+            at, used = (order - k) * size, min(k + 1, terms) * size
+            backward[at - size : at] = flat[:, :used] @ backward[at : at + used] / (k + 1)
+        return backward.reshape(order + 1, size, size)[::-1]
 
-    def _defects(self, h: arb, columns: Sequence[Sequence[arb_poly]]) -> list[list[arb]]:
+    def _order_for(self, stretch: float) -> int:
+        """Terms of the exponential of a matrix of this norm, to VARIATIONAL_BITS."""
+        order, size = self._order, math.log2(max(1.0, stretch))
+        while order < MOST_TERMS and order * size - math.lgamma(order + 1) / math.log(2) > -VARIATIONAL_BITS:
+            order += self._order // 4
+        return order
+
+    def _defects(self, columns: Sequence[Sequence[arb_poly]]) -> list[list[arb]]:
         """Bounds of |V' - h J V| on the step, entry by entry (rules 1, 2 and 9)."""
-        norms = [[total(one.coeffs()) for one in column] for column in columns]
+        h, norms = self._h, [[supremum(one) for one in column] for column in columns]
         found = []
-        for i, row in enumerate(self._slopes):
+        for i, row in enumerate(self._rows):
             known = [
                 (j, one.polynomial, one.remainder) if isinstance(one, Node) else (j, arb_poly([one]), arb(0))
                 for j, one in enumerate(row)
-                if isinstance(one, Node) or not one == 0  # noqa: SIM201 - a ball about zero is neither
+                if isinstance(one, Node) or not one.is_zero()
             ]
             bounds = []
             for column, sizes in zip(columns, norms, strict=True):
                 turned = sum((slope * column[j] for j, slope, _ in known), arb_poly())
-                off = total((column[i].derivative() - h * turned).coeffs())
+                off = supremum(column[i].derivative() - h * turned)
                 missed = sum((remainder * sizes[j] for j, _, remainder in known), arb(0))
                 bounds.append(bound(off + abs(h) * missed))
             found.append(bounds)
@@ -656,7 +686,7 @@ def proven(equation: Any, bits: int, time: Fraction = Fraction(0)) -> ProvenFlow
     """
     flows = _flows(equation)
     able = [known for known in flows if known >= bits and flows[known].reaches(time)]
-    shared = min(able, default=BITS_APART * max(2, -(-bits // BITS_APART)))
+    shared = min(able, default=max(LEAST_BITS, BITS_APART * -(-bits // BITS_APART)))
     if shared not in flows:
         for known in list(flows)[: len(flows) - KEPT + 1]:
             del flows[known]
