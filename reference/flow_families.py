@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 from reference.arithmetic.binary64 import nearest
 from reference.arithmetic.exact import as_number, exact
 from reference.family import Comparison, End, Family, Input, Marched, Reported
-from reference.flow_problem import CONSERVED, CROSSINGS, END, has_event, is_rational
+from reference.flow_problem import CONDITION, CONSERVED, CROSSINGS, END, has_event, is_rational
 from reference.layout import Coordinate, Group, Layout
 
 if TYPE_CHECKING:
@@ -163,7 +163,9 @@ def _layout(given: Given, words: str) -> Layout:
         over["invariant"] = Coordinate("invariant", "1", "what is conserved", "labels", meanings=names)
     if kind.crossings and has_event(kind):
         over["index"] = CROSSING
-    stored = [row for row in problem.rows if row.name in {"state", END, CONSERVED, CROSSINGS} and row.over in over]
+    stored = [
+        row for row in problem.rows if row.name in {"state", CONDITION, END, CONSERVED, CROSSINGS} and row.over in over
+    ]
     return Layout(
         path=given.path,
         long_name=words,

@@ -30,15 +30,16 @@ from reference.arithmetic.dual import Dual, DualArithmetic
 from reference.arithmetic.exact import as_number, exact
 from reference.arithmetic.formula import Expression
 from reference.arithmetic.limbs import ziv
-from reference.arithmetic.namespaces import BALL
-from reference.arithmetic.precision import ctx
-from reference.arithmetic.rational import RATIONAL, IrrationalError
+from reference.arithmetic.namespaces import BALL, MPMATH
+from reference.arithmetic.precision import ctx, mp
+from reference.arithmetic.rational import RATIONAL, IrrationalError, rational_root
 from reference.declaration import Quantity, Row, Trial
 from reference.names import unknown
 from reference.problem import APART, HamiltonianProblem, Problem, required
+from reference.routes import quadrature
 from reference.routes.flow_events import crossing_times, crossings
-from reference.routes.proven_flow import LEAST_BITS, FlowSolution, lost
-from reference.routes.sensitivity import Sensitivity, Variations, known_sensitivity
+from reference.routes.proven_flow import LEAST_BITS, FlowSolution, lost, see
+from reference.routes.sensitivity import Sensitivity, Variational, Variations, condition, known_sensitivity
 from reference.routes.taylor import Along, Passages
 from reference.row_domains import INDEX, TIME, Whole
 
@@ -51,6 +52,7 @@ if TYPE_CHECKING:
     from reference.routes.taylor import Reading, TaylorRoute
 
 __all__ = [
+    "CONDITION",
     "CONSERVED",
     "CROSSINGS",
     "END",
@@ -61,12 +63,18 @@ __all__ = [
     "start_formulas",
 ]
 
-CROSSINGS, CONSERVED, END, SENSITIVITY = "zero_crossing", "conserved", "end", "sensitivity_"
-"""The rows of crossings, of what is conserved and of the ends, and how those of derivatives begin."""
+CROSSINGS, CONSERVED, END = "zero_crossing", "conserved", "end"
+"""The rows of crossings, of what is conserved and of the ends."""
+CONDITION, SENSITIVITY = "condition", "sensitivity_"
+"""The row of condition numbers, and how those of derivatives begin."""
+CONDITIONED = 8
+"""A state of more components has none: it would take the square of their number."""
 MULTIPLE = Whole("multiple", "multiple")
 """Of the end, which is an exact decimal."""
 COUNT_BITS = 1 << 12
 """A crossing that so many bits do not tell from the end of the time in which they are counted is at that end."""
+KNOWN_BITS = 100
+"""So many more bits than it is held against does the state take that mathematics knows."""
 START_BITS = 4096
 """An irrational start is told to so many bits where a number is asked for: beyond those of any format."""
 AROUND = Fraction(1, 16)
@@ -98,6 +106,8 @@ class FlowProblem(Problem):
     """Whether the core dataset has it, which what takes minutes leaves to the full one."""
     crossings: ClassVar[int] = 0
     """How many crossings a dataset has."""
+    known_for: ClassVar[tuple[str, ...]] = ()
+    """Inputs of which ``known_state`` takes any; of the others the declared ones."""
     meanings: ClassVar[Mapping[str, str]] = {}
     """What numbers and components are, in words; where there are none, their names."""
     units: ClassVar[Mapping[str, str]] = {}
@@ -139,6 +149,7 @@ class FlowProblem(Problem):
         What is conserved is read of the state where a march ends.
         """
         found: dict[str, Reading] = {"state": Along(), CROSSINGS: Passages(), END: _ends, CONSERVED: _at_the_end}
+        found[CONDITION] = Along(_condition, by=self.space.components)
         return {**found, **{SENSITIVITY + name: Variations(input=name) for name in self.input_names()}}
 
     @property
@@ -182,6 +193,10 @@ class FlowProblem(Problem):
 
         return [slope(name) for name in (names if place is None else names[place : place + 1])]
 
+    def known_state(self, t: Any) -> Sequence[Any]:
+        """The state at a time where mathematics knows it, in mpmath's numbers: a third route, which proves nothing."""
+        raise NotImplementedError
+
     @property
     def end(self) -> Fraction:
         """Where a march ends, exactly."""
@@ -208,13 +223,29 @@ class FlowProblem(Problem):
         end = exact(until, "until")
         return CROSSINGS, _counted(self, end) if end > 0 else 0
 
+    def by_route(
+        self, route: str, row: str, arguments: Sequence[Any], digits: int
+    ) -> list[tuple[Fraction, ...]] | None:
+        if route != "quadrature" or route in dict(self.row(row).lacks):
+            return super().by_route(route, row, arguments, digits)
+        if is_known(self.kind) and not {name for name, _ in self.given}.issubset(self.known_for):
+            return None
+        arguments, bits = self.arguments(row, arguments), int(digits * 3.33) + KNOWN_BITS
+        return quadrature.rows(lambda: _Known(self, bits), row, arguments, bits)
+
     def enclosure_form(self) -> Solution:
         """The proven flow, with its crossings and its derivatives."""
         return _FlowRows(self)
 
-    def working_bits(self, arguments: Sequence[Any]) -> int:
+    def row_bits(self, row: str, arguments: Sequence[Any]) -> int:
         times = [argument for argument in arguments if isinstance(argument, Fraction)]
-        return super().working_bits(times or [self.end])
+        return super().row_bits(row, times or [self.end])
+
+    def equation_of(self, row: str) -> Any:
+        """Its own, with derivatives where the row is of these."""
+        if row == CONDITION:
+            return Variational(self)
+        return self.sensitivity(row.removeprefix(SENSITIVITY)) if row.startswith(SENSITIVITY) else self
 
     @property
     def start(self) -> tuple[Fraction, ...]:
@@ -229,6 +260,8 @@ class FlowProblem(Problem):
             return (self.exact_invariant(self.invariants[argument].value),)
         if row == "state" and argument == 0:
             return _rational(self)
+        if row == CONDITION and argument == 0:
+            return (rational_root(Fraction(len(self.state_names))),)
         if row.startswith(SENSITIVITY):
             return known_sensitivity(self, row.removeprefix(SENSITIVITY), argument)
         return None
@@ -262,16 +295,49 @@ class _FlowRows(FlowSolution):
         if row == CONSERVED:
             start = problem.start_in(BALL)
             return [(BALL.number(Fraction(0)) + problem.conserved(index, BALL, start),) for index in arguments]
-        if row.startswith(SENSITIVITY):
-            flow, size = FlowSolution(problem.sensitivity(row.removeprefix(SENSITIVITY))), len(problem.state_names)
-            return [values[size:] for values in flow.rows("state", arguments)]
+        if row == CONDITION or row.startswith(SENSITIVITY):
+            states = FlowSolution(problem.equation_of(row)).rows("state", arguments)
+            found = [values[len(problem.state_names) :] for values in states]
+            return found if row != CONDITION else [(condition(BALL, values),) for values in found]
         return super().rows(row, arguments)
+
+
+class _Known:
+    """The rows of a problem by the state that mathematics knows; what is conserved of any, by its proven state."""
+
+    def __init__(self, problem: FlowProblem, bits: int) -> None:
+        self._problem, self._bits = problem, bits
+
+    def rows(self, row: str, arguments: Sequence[Any]) -> list[tuple[Any, ...]]:
+        problem = self._problem
+        if row == "state":
+            return [tuple(problem.known_state(MPMATH.number(time))) for time in arguments]
+        if row == END:
+            return self.rows("state", [multiple * problem.end for multiple in arguments])
+        if is_known(problem.kind):
+            state = problem.known_state(MPMATH.number(problem.end))
+            return [(problem.conserved(index, MPMATH, state),) for index in arguments]
+        see(problem, problem.end, self._bits)
+        with ctx.workprec(self._bits + lost(problem, problem.end)):
+            (balls,) = FlowSolution(problem).rows("state", [problem.end])
+            found = [problem.conserved(index, BALL, balls).mid() for index in arguments]
+        return [(mp.ldexp(mp.mpf(int(mantissa)), int(e)),) for mantissa, e in (one.man_exp() for one in found)]
+
+
+def is_known(kind: Any) -> bool:
+    """Whether mathematics knows the state of a class of problems."""
+    return kind.known_state is not FlowProblem.known_state
 
 
 def _ends(route: TaylorRoute, row: str, arguments: Sequence[int]) -> Sequence[Any]:
     """The states at multiples of the end."""
     del row
     return route.states([multiple * route.problem.end for multiple in arguments])
+
+
+def _condition(route: TaylorRoute, state: Sequence[Any]) -> Any:
+    """The condition number, of the variations."""
+    return condition(route.m, state[len(route.problem.state_names) :])
 
 
 def _at_the_end(route: TaylorRoute, row: str, arguments: Sequence[int]) -> Sequence[Any]:
@@ -311,17 +377,26 @@ def _rows(kind: Any) -> tuple[Row, ...]:
         name: Quantity(name, kind.units.get(name, "1"), kind.meanings.get(name, name), str(kind.equation))
         for name in names
     }
-    found = [Row("state", tuple(quantities.values()), TIME, lacks=lacks)]
+    states: tuple[tuple[str, str], ...] = () if is_known(kind) else lacks
+    found = [Row("state", tuple(quantities.values()), TIME, lacks=states)]
     ends = tuple(
         replace(one, name=f"{name}_{END}", long_name=f"{one.long_name} at multiples of the end of the march")
         for name, one in quantities.items()
     )
-    found.append(Row(END, ends, MULTIPLE, lacks=lacks))
+    found.append(Row(END, ends, MULTIPLE, lacks=states))
     if kind.invariants:
         what = "invariants of the motion, at its start"
         conserved = Quantity(CONSERVED, "1", what, f"what does not change along it; {kind.equation}")
         domain = Whole("invariant", "invariant", len(kind.invariants) - 1)
-        found.append(Row(CONSERVED, (conserved,), domain, lacks=lacks))
+        found.append(Row(CONSERVED, (conserved,), domain))
+    if len(names) <= CONDITIONED:
+        growth = Quantity(
+            CONDITION,
+            "1",
+            "condition number: growth of errors of the start",
+            f"Frobenius norm of the derivatives of the state by its start at fixed t; {kind.equation}",
+        )
+        found.append(Row(CONDITION, (growth,), TIME, lacks=lacks))
     if has_event(kind):
         crossing = Quantity(
             CROSSINGS,

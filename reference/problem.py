@@ -350,15 +350,24 @@ class Problem:
         found = known(lambda: surd(_read_at_start(self, value, SURD)).rational) if found is None else found
         return Fraction(found) if isinstance(found, (int, Fraction)) else None
 
+    def equation_of(self, row: str) -> Any:
+        """The equation of which the flow proves a row."""
+        del row
+        return self
+
     def working_bits(self, arguments: Sequence[Any]) -> int:
         """Bits that the solution in balls is expected to lose at these arguments; only speed depends on it.
 
-        Of itself those of the latest time.  Of a flow what it is seen to lose until then, beyond what it may.
+        Of itself those of the latest time.
         """
-        latest = max((abs(t) for t in arguments if isinstance(t, Fraction)), default=Fraction(0))
+        return int(_latest(arguments)).bit_length() if self.has_closed_form else self.row_bits("state", arguments)
+
+    def row_bits(self, row: str, arguments: Sequence[Any]) -> int:
+        """The ``working_bits`` of a row: of a flow what it is seen to lose until then, beyond what it may."""
         if self.has_closed_form:
-            return int(latest).bit_length()
-        return max(proven_flow.lost(self, latest), LEAST_LOST) - SPARED_BITS + len(arguments).bit_length()
+            return self.working_bits(arguments)
+        lost = max(proven_flow.lost(self.equation_of(row), _latest(arguments)), LEAST_LOST)
+        return lost - SPARED_BITS + len(arguments).bit_length()
 
     def by_route(
         self, route: str, row: str, arguments: Sequence[Any], digits: int
@@ -370,9 +379,8 @@ class Problem:
         """
         arguments = self.arguments(row, arguments)
         if not self.has_closed_form:
-            latest = max((abs(t) for t in arguments if isinstance(t, Fraction)), default=Fraction(0))
-            proven_flow.see(self, latest, int(digits * 3.33) + SEEN_BITS)
-        bits = int(digits * 3.33) + 2 * max(0, self.working_bits(arguments)) + 30
+            proven_flow.see(self.equation_of(row), _latest(arguments), int(digits * 3.33) + SEEN_BITS)
+        bits = int(digits * 3.33) + 2 * max(0, self.row_bits(row, arguments)) + 30
         if route in dict(self.row(row).lacks) or bits > ROUTE_BITS:
             return None
         if route == "quadrature" and not self.has_closed_form:
@@ -589,6 +597,11 @@ class HamiltonianProblem(Problem):
         size = len(positions)
         momenta = [m.number(value) for value in self.start[size:]]
         return tuple(-slope for slope in self._slopes(m, t, positions, momenta, p)[:size])
+
+
+def _latest(arguments: Sequence[Any]) -> Fraction:
+    """The time among them that is farthest from the start."""
+    return max((abs(t) for t in arguments if isinstance(t, Fraction)), default=Fraction(0))
 
 
 def _read_at_start(problem: Problem, value: str, m: Any) -> Any:

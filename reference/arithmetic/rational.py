@@ -7,7 +7,7 @@ from typing import Any
 
 from reference.arithmetic.exact import rational_root
 
-__all__ = ["RATIONAL", "IrrationalError", "RationalArithmetic"]
+__all__ = ["RATIONAL", "IrrationalError", "RationalArithmetic", "rational_root"]
 
 
 class IrrationalError(ArithmeticError):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, ClassVar
 
+from reference.arithmetic.precision import mp
 from reference.declaration import Invariant, StateSpace
 from reference.flow_families import flow_family
 from reference.flow_problem import FlowProblem, HamiltonianFlow
@@ -50,6 +51,12 @@ class Duffing(HamiltonianFlow):
         del m, t
         x, v = y
         return v, -(p["alpha"] * x) - p["beta"] * (x * x * x)
+
+    def known_state(self, t: Any) -> Sequence[Any]:
+        """x = cn(w t) with w^2 = 2 and the parameter 1/4."""
+        w = mp.sqrt(2)
+        cn, sn, dn = (mp.ellipfun(kind, w * t, m=mp.mpf(1) / 4) for kind in ("cn", "sn", "dn"))
+        return cn, -w * sn * dn
 
 
 class DuffingDriven(FlowProblem):

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, ClassVar
 
+from reference.arithmetic.namespaces import MPMATH
+from reference.arithmetic.precision import mp
 from reference.declaration import Invariant, StateSpace
 from reference.flow_families import flow_family
 from reference.flow_problem import HamiltonianFlow
@@ -13,7 +15,7 @@ if TYPE_CHECKING:
 
     from reference.arithmetic.protocols import Arithmetic
 
-__all__ = ["FAMILY", "Kepler"]
+__all__ = ["FAMILY", "Kepler", "on_ellipse"]
 
 
 class Kepler(HamiltonianFlow):
@@ -43,6 +45,7 @@ class Kepler(HamiltonianFlow):
         Invariant("eccentricity x", ("Eccentricity vector, x", "(Ax - Ax0)/K0"), "kinetic", "eccentricity_x"),
         Invariant("eccentricity y", ("Eccentricity vector, y", "(Ay - Ay0)/K0"), "kinetic", "eccentricity_y"),
     )
+    known_for = ("e",)
     t_end = 62.83185307179586
     variants = ({"e": "0"}, {"e": "0.9"}, {"e": "0.99"})
     source = "E. Hairer, C. Lubich and G. Wanner, Geometric Numerical Integration, 2006, section I.2"
@@ -67,6 +70,9 @@ class Kepler(HamiltonianFlow):
         pull = 1 / (square * m.sqrt(square))
         return px, py, -(x * pull), -(y_ * pull)
 
+    def known_state(self, t: Any) -> Sequence[Any]:
+        return on_ellipse(t, MPMATH.number(self.parameters["e"]))
+
     def angular_momentum(self, m: Arithmetic, y: Sequence[Any], p: dict[str, Any]) -> Any:
         """x py - y px."""
         del m, p
@@ -82,6 +88,16 @@ class Kepler(HamiltonianFlow):
         """The second component of p x L - q/r, which is zero."""
         x, y_, px, _ = y
         return -(px * self.angular_momentum(m, y, p)) - y_ / m.sqrt(x * x + y_ * y_)
+
+
+def on_ellipse(t: Any, e: Any) -> tuple[Any, ...]:
+    """Position and velocity at a time after the pericentre, of the semi-major axis 1, in mpmath's numbers.
+
+    Kepler's equation u - e sin u = t has its root within e of t.
+    """
+    u = mp.findroot(lambda u: u - e * mp.sin(u) - t, (t - e, t + e), solver="anderson") if e else t
+    root, rate = mp.sqrt(1 - e * e), 1 / (1 - e * mp.cos(u))
+    return mp.cos(u) - e, root * mp.sin(u), -rate * mp.sin(u), rate * root * mp.cos(u)
 
 
 FAMILY = flow_family(Kepler, "Kepler's problem")

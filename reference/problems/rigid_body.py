@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, ClassVar
 
+from reference.arithmetic.namespaces import MPMATH
+from reference.arithmetic.precision import mp
 from reference.declaration import Invariant, StateSpace
 from reference.flow_families import flow_family
 from reference.flow_problem import FlowProblem
@@ -52,6 +54,14 @@ class RigidBody(FlowProblem):
         y1, y2, y3 = y
         a1, a2, a3 = (1 / p[name] for name in ("i1", "i2", "i3"))
         return (a3 - a2) * (y2 * y3), (a1 - a3) * (y3 * y1), (a2 - a1) * (y1 * y2)
+
+    def known_state(self, t: Any) -> Sequence[Any]:
+        """(a cn, b sn, c dn) of w t (L. D. Landau and E. M. Lifshitz, Mechanics, 1976, section 37)."""
+        first, _, third = self.start_in(MPMATH)
+        b1, b2, b3 = mp.mpf(1) / 2, mp.mpf(-1), mp.mpf(1) / 2  # of y2 y3, y3 y1 and y1 y2
+        u, square = mp.sqrt(-b1 * b2) * third * t, b3 * first**2 / (b1 * third**2)
+        cn, sn, dn = (mp.ellipfun(kind, u, m=square) for kind in ("cn", "sn", "dn"))
+        return first * cn, -first * mp.sqrt(-b2 / b1) * sn, third * dn
 
     def invariant(self, m: Arithmetic, y: Sequence[Any], p: dict[str, Any]) -> Any:
         """The kinetic energy."""

@@ -52,7 +52,7 @@ def decide(
     pending = [i for i, known in enumerate(rational) if known is None or None in known]
 
     def asked() -> int:
-        return bits + GUARD_BITS + problem.working_bits([arguments[i] for i in pending])
+        return bits + GUARD_BITS + problem.row_bits(row, [arguments[i] for i in pending])
 
     def more(found: int) -> int:
         """After what was not enough: what is asked now that more is known of what is lost, or twice as many."""

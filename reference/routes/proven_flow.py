@@ -179,7 +179,7 @@ class _Side:
             self._reading = _Reading(equation)
         self._variation = _Variation(equation)
         self.errors: _Box | _Parallelepiped = _Box(sides)
-        if len(start) <= SIDES:
+        if len(start) <= SIDES or getattr(equation, "turned", False):
             self.errors = _Parallelepiped(_unit(len(start)), sides)
 
     def piece(self, time: Fraction) -> Piece:

@@ -184,43 +184,22 @@ def test_the_forces_of_gravitation_are_the_slopes_of_the_energy(name: str) -> No
             assert abs(other - mass * velocity) <= 1e-40 * abs(other)
 
 
-@pytest.mark.parametrize("e", ["0", "0.5", "0.9", "0.99"])
-def test_kepler_is_at_the_anomaly_of_its_equation(e: str) -> None:
-    t = Fraction(1, 64)
+@pytest.mark.parametrize(
+    ("problem", "t"),
+    [
+        *((Kepler(e=e), Fraction(1, 64)) for e in ("0", "0.5", "0.9", "0.99")),
+        (Kepler(e="0.3"), Fraction(9)),
+        (RigidBody(), Fraction(3, 2)),
+        (Duffing(), Fraction(2)),
+    ],
+    ids=repr,
+)
+def test_the_proven_flow_holds_the_closed_form(problem: FlowProblem, t: Fraction) -> None:
+    """Kepler's equation, Euler's free body and Duffing's oscillator by elliptic functions."""
     with mp.workprec(MORE):
-        given = mp.mpf(e)
-        anomaly = mp.findroot(lambda u: u - given * mp.sin(u) - mp.mpf(1) / 64, 1.0)
-        expected = mp.cos(anomaly) - given, mp.sqrt(1 - given**2) * mp.sin(anomaly)
-        for ball, value in zip(ProvenFlow(Kepler(e=e), BITS, STEPS).at(t)[:2], expected, strict=True):
+        expected = problem.known_state(mp.mpf(t.numerator) / t.denominator)
+        for ball, value in zip(ProvenFlow(problem, BITS, STEPS).at(t), expected, strict=True):
             assert abs(mp.mpf(ball.mid().str(45, radius=False)) - value) < 1e-24
-
-
-def test_the_rigid_body_turns_by_elliptic_functions() -> None:
-    """y1 = A cn, y2 = B sn, y3 = C dn of (w t), from y2 = 0 (Landau and Lifshitz, Mechanics, section 37)."""
-    t = Fraction(3, 2)
-    with mp.workprec(MORE):
-        i1, i2, i3 = mp.mpf(2), mp.mpf(1), mp.mpf(2) / 3
-        a1, a2, a3 = 1 / i3 - 1 / i2, 1 / i1 - 1 / i3, 1 / i2 - 1 / i1
-        first, third = mp.cos(mp.mpf(11) / 10), mp.sin(mp.mpf(11) / 10)
-        rate = mp.sqrt(-a1 * a2) * third
-        modulus = a3 * first**2 / (a1 * third**2)
-        middle = -first * mp.sqrt(-a2 / a1)
-        u = rate * mp.mpf(3) / 2
-        expected = (
-            first * mp.ellipfun("cn", u, m=modulus),
-            middle * mp.ellipfun("sn", u, m=modulus),
-            third * mp.ellipfun("dn", u, m=modulus),
-        )
-        for ball, value in zip(ProvenFlow(RigidBody(), BITS, STEPS).at(t), expected, strict=True):
-            assert abs(mp.mpf(ball.mid().str(45, radius=False)) - value) < 1e-26
-
-
-def test_duffing_swings_by_an_elliptic_function() -> None:
-    """x = cn(w t), w^2 = 2, with the parameter 1/4 (Kovacic and Brennan, section 2.3)."""
-    with mp.workprec(MORE):
-        expected = mp.ellipfun("cn", mp.sqrt(2) * 2, m=mp.mpf(1) / 4)
-        ball, _ = ProvenFlow(Duffing(), BITS, STEPS).at(Fraction(2))
-        assert abs(mp.mpf(ball.mid().str(45, radius=False)) - expected) < 1e-26
 
 
 def test_arenstorfs_satellite_is_back_after_the_printed_period() -> None:

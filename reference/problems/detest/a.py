@@ -5,7 +5,9 @@ from __future__ import annotations
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
+from reference.arithmetic.precision import mp
 from reference.arithmetic.rational import RATIONAL, IrrationalError
+from reference.flow_problem import CONDITION
 from reference.problems.detest.nonstiff import Nonstiff, first_order
 
 if TYPE_CHECKING:
@@ -29,6 +31,9 @@ class DetestA1(Nonstiff):
     def derivative(self, m: Arithmetic, t: Any, y: Sequence[Any], p: dict[str, Any]) -> tuple[Any, ...]:
         return (-y[0],)
 
+    def known_state(self, t: Any) -> Sequence[Any]:
+        return (mp.exp(-t),)
+
 
 class DetestA2(Nonstiff):
     """y' = -y^3/2, y(0) = 1, a special case of Riccati's equation; y = 1/sqrt(1 + t)."""
@@ -43,16 +48,21 @@ class DetestA2(Nonstiff):
     def derivative(self, m: Arithmetic, t: Any, y: Sequence[Any], p: dict[str, Any]) -> tuple[Any, ...]:
         return (-(y[0] * y[0] * y[0]) / 2,)
 
+    def known_state(self, t: Any) -> Sequence[Any]:
+        return (1 / mp.sqrt(1 + t),)
+
     def exact_row(self, row: str, argument: Any) -> tuple[Fraction | None, ...] | None:
-        """y0/sqrt(1 + y0^2 t) where that root is rational."""
-        if row != "state":
-            return None
+        """y0/sqrt(1 + y0^2 t) where that root is rational, and its derivative by y0."""
+        if row not in ("state", CONDITION):
+            return super().exact_row(row, argument)
         (begun,) = self.start
         try:
             root = RATIONAL.sqrt(1 + begun * begun * argument)
         except IrrationalError:
             return None
-        return (begun / root,) if root else None
+        if not root:
+            return None
+        return (begun / root,) if row == "state" else (1 / abs(root) ** 3,)
 
 
 class DetestA3(Nonstiff):
@@ -69,6 +79,9 @@ class DetestA3(Nonstiff):
     def derivative(self, m: Arithmetic, t: Any, y: Sequence[Any], p: dict[str, Any]) -> tuple[Any, ...]:
         return (y[0] * m.cos(t),)
 
+    def known_state(self, t: Any) -> Sequence[Any]:
+        return (mp.exp(mp.sin(t)),)
+
 
 class DetestA4(Nonstiff):
     """y' = (y/4) (1 - y/20), y(0) = 1, a logistic curve; y = 20/(1 + 19 exp(-t/4))."""
@@ -82,6 +95,9 @@ class DetestA4(Nonstiff):
 
     def derivative(self, m: Arithmetic, t: Any, y: Sequence[Any], p: dict[str, Any]) -> tuple[Any, ...]:
         return ((1 - y[0] / m.number(CAPACITY)) * y[0] / 4,)
+
+    def known_state(self, t: Any) -> Sequence[Any]:
+        return (20 / (1 + 19 * mp.exp(-t / 4)),)
 
 
 class DetestA5(Nonstiff):
@@ -100,6 +116,16 @@ class DetestA5(Nonstiff):
 
     def derivative(self, m: Arithmetic, t: Any, y: Sequence[Any], p: dict[str, Any]) -> tuple[Any, ...]:
         return ((y[0] - t) / (y[0] + t),)
+
+    def known_state(self, t: Any) -> Sequence[Any]:
+        level = mp.log(4) + mp.pi / 2
+        return (
+            mp.findroot(
+                lambda y: mp.log(t * t + y * y) / 2 + mp.atan2(y, t) - level,
+                (mp.mpf("0.1") - t / 2, 5),
+                solver="anderson",
+            ),
+        )
 
 
 CAPACITY = Fraction(20)

@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 from fractions import Fraction
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
+from reference.arithmetic.namespaces import MPMATH
+from reference.arithmetic.precision import mp
 from reference.declaration import Invariant
 from reference.problems.detest.nonstiff import Nonstiff, first_order
 
@@ -53,6 +56,10 @@ class DetestB2(Nonstiff):
     def derivative(self, m: Arithmetic, t: Any, y: Sequence[Any], p: dict[str, Any]) -> tuple[Any, ...]:
         return y[1] - y[0], y[0] - 2 * y[1] + y[2], y[1] - y[2]
 
+    def known_state(self, t: Any) -> Sequence[Any]:
+        slow, fast = mp.exp(-t), mp.exp(-3 * t)
+        return 1 + (slow + fast) / 2, 1 - fast, 1 - (slow - fast) / 2
+
     def invariant(self, m: Arithmetic, y: Sequence[Any], p: dict[str, Any]) -> Any:
         """S = y1 + y2 + y3."""
         return y[0] + y[1] + y[2]
@@ -76,6 +83,11 @@ class DetestB3(Nonstiff):
     def derivative(self, m: Arithmetic, t: Any, y: Sequence[Any], p: dict[str, Any]) -> tuple[Any, ...]:
         reacted = y[1] * y[1]
         return -y[0], y[0] - reacted, reacted
+
+    def known_state(self, t: Any) -> Sequence[Any]:
+        x, i0, i1, k0, k1 = 2 * mp.exp(-t / 2), *(partial(f, n) for f in (mp.besseli, mp.besselk) for n in (0, 1))
+        y2 = -x / 2 * (k1(2) * i1(x) - i1(2) * k1(x)) / (k1(2) * i0(x) + i1(2) * k0(x))
+        return mp.exp(-t), y2, 1 - mp.exp(-t) - y2
 
     def invariant(self, m: Arithmetic, y: Sequence[Any], p: dict[str, Any]) -> Any:
         """S = y1 + y2 + y3."""
@@ -101,6 +113,10 @@ class DetestB4(Nonstiff):
         r = m.sqrt(y[0] * y[0] + y[1] * y[1])
         return -y[1] - y[0] * y[2] / r, y[0] - y[1] * y[2] / r, y[0] / r
 
+    def known_state(self, t: Any) -> Sequence[Any]:
+        r = 2 + mp.cos(t)
+        return r * mp.cos(t), r * mp.sin(t), mp.sin(t)
+
     def invariant(self, m: Arithmetic, y: Sequence[Any], p: dict[str, Any]) -> Any:
         """I = 1 + y3 - y2/r: the radius of the tube is added, so that there is a scale for its change."""
         return 1 + y[2] - y[1] / m.sqrt(y[0] * y[0] + y[1] * y[1])
@@ -125,6 +141,9 @@ class DetestB5(Nonstiff):
 
     def derivative(self, m: Arithmetic, t: Any, y: Sequence[Any], p: dict[str, Any]) -> tuple[Any, ...]:
         return y[1] * y[2], -(y[0] * y[2]), -m.number(K_SQUARED) * y[0] * y[1]
+
+    def known_state(self, t: Any) -> Sequence[Any]:
+        return [mp.ellipfun(kind, t, m=MPMATH.number(K_SQUARED)) for kind in ("sn", "cn", "dn")]
 
     def invariant(self, m: Arithmetic, y: Sequence[Any], p: dict[str, Any]) -> Any:
         """C = y1^2 + y2^2."""

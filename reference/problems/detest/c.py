@@ -5,6 +5,7 @@ from __future__ import annotations
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any, ClassVar
 
+from reference.arithmetic.precision import mp
 from reference.declaration import Invariant
 from reference.problems.detest.nonstiff import Nonstiff, first_order, second_order
 
@@ -54,6 +55,10 @@ class DetestC1(_Chain):
         """1."""
         return 1
 
+    def known_state(self, t: Any) -> Sequence[Any]:
+        first = [t**i * mp.exp(-t) / mp.factorial(i) for i in range(9)]
+        return *first, 1 - mp.fsum(first)
+
 
 class DetestC2(_Chain):
     """y1' = -y1, yi' = (i-1) y(i-1) - i yi, y10' = 9 y9, y(0) = (1, 0, ..., 0): a radioactive decay chain.
@@ -71,6 +76,10 @@ class DetestC2(_Chain):
         """The number of the member."""
         return member
 
+    def known_state(self, t: Any) -> Sequence[Any]:
+        first = [mp.exp(-t) * (1 - mp.exp(-t)) ** i for i in range(9)]
+        return *first, 1 - mp.fsum(first)
+
 
 class _Rod(Nonstiff):
     """The heat equation in a rod, by the method of lines: each point by its neighbours, with zero at both ends."""
@@ -80,6 +89,17 @@ class _Rod(Nonstiff):
     def derivative(self, m: Arithmetic, t: Any, y: Sequence[Any], p: dict[str, Any]) -> tuple[Any, ...]:
         between = (before - 2 * at + after for before, at, after in zip(y, y[1:], y[2:], strict=False))
         return y[1] - 2 * y[0], *between, y[-2] - 2 * y[-1]
+
+    def known_state(self, t: Any) -> Sequence[Any]:
+        """By the eigenvectors, which are sines: of the values -4 sin(k pi/(2 (n + 1)))^2."""
+        size = len(self.begins)
+        angle = mp.pi / (size + 1)
+        sines = [mp.sin(i * angle) for i in range(2 * (size + 1))]
+        weights = [mp.exp(-4 * mp.sin(k * angle / 2) ** 2 * t) * sines[k] for k in range(1, size + 1)]
+        return [
+            2 * mp.fsum(one * sines[i * k % len(sines)] for k, one in enumerate(weights, 1)) / (size + 1)
+            for i in range(1, size + 1)
+        ]
 
 
 class DetestC3(_Rod):

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, ClassVar
 
+from reference.arithmetic.namespaces import MPMATH
 from reference.declaration import Invariant, StateSpace
 from reference.problem import SeparableProblem
 from reference.problems.detest.nonstiff import Nonstiff
+from reference.problems.kepler import on_ellipse
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -42,6 +44,7 @@ class _Orbit(Nonstiff, SeparableProblem):
         Invariant("angular momentum", ("Angular momentum", "(L - L0)/L0"), "start", "angular_momentum"),
     )
     meanings: ClassVar[Mapping[str, str]] = {"eps": "eccentricity of the orbit"}
+    known_for = ("eps",)
 
     def velocity(self, m: Arithmetic, momenta: Sequence[Any], p: dict[str, Any]) -> tuple[Any, ...]:
         return tuple(momenta)
@@ -51,6 +54,9 @@ class _Orbit(Nonstiff, SeparableProblem):
         square = y1 * y1 + y2 * y2
         cube = square * m.sqrt(square)
         return -y1 / cube, -y2 / cube
+
+    def known_state(self, t: Any) -> Sequence[Any]:
+        return on_ellipse(t, MPMATH.number(self.parameters["eps"]))
 
     def invariant(self, m: Arithmetic, y: Sequence[Any], p: dict[str, Any]) -> Any:
         """H, which is -1/2."""

@@ -5,6 +5,8 @@ from __future__ import annotations
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
+from reference.arithmetic.namespaces import MPMATH
+from reference.arithmetic.precision import mp
 from reference.arithmetic.rational import RATIONAL, IrrationalError
 from reference.declaration import Invariant, StateSpace
 from reference.problem import SeparableProblem
@@ -37,6 +39,15 @@ class DetestE1(Nonstiff):
     def derivative(self, m: Arithmetic, t: Any, y: Sequence[Any], p: dict[str, Any]) -> tuple[Any, ...]:
         x = t + 1
         return y[1], -(y[1] / x + (1 - 1 / (4 * x * x)) * y[0])
+
+    def known_state(self, t: Any) -> Sequence[Any]:
+        """(a sin x + b cos x)/sqrt(x), x = t + 1, by variation of the start's."""
+        start, slope = self.start_in(MPMATH)
+        slope += start / 2
+        a, b = start * mp.sin(1) + slope * mp.cos(1), start * mp.cos(1) - slope * mp.sin(1)
+        x = t + 1
+        y = (a * mp.sin(x) + b * mp.cos(x)) / mp.sqrt(x)
+        return y, (a * mp.cos(x) - b * mp.sin(x)) / mp.sqrt(x) - y / (2 * x)
 
 
 class DetestE2(Nonstiff):
@@ -91,6 +102,10 @@ class DetestE4(Nonstiff):
     def derivative(self, m: Arithmetic, t: Any, y: Sequence[Any], p: dict[str, Any]) -> tuple[Any, ...]:
         return y[1], m.number(WEIGHT) - m.number(DRAG) * y[1] * y[1]
 
+    def known_state(self, t: Any) -> Sequence[Any]:
+        drag, w = MPMATH.number(DRAG), mp.sqrt(MPMATH.number(WEIGHT / DRAG))
+        return 30 + mp.log(mp.cosh(drag * w * t)) / drag, w * mp.tanh(drag * w * t)
+
     def invariant(self, m: Any, y: Sequence[Any], p: dict[str, Any]) -> Any:
         """I = (y2^2 - 0.08) exp(0.8 (y1 - 30)); it is zero where the velocity is constant."""
         height = y[0] - m.number(Fraction(30))
@@ -114,6 +129,10 @@ class DetestE5(Nonstiff):
 
     def derivative(self, m: Arithmetic, t: Any, y: Sequence[Any], p: dict[str, Any]) -> tuple[Any, ...]:
         return y[1], m.sqrt(1 + y[1] * y[1]) / (25 - t)
+
+    def known_state(self, t: Any) -> Sequence[Any]:
+        a = 25 / (25 - t)
+        return mp.mpf(25) / 2 * mp.log(a) - t / 2 + t * t / 100, (a - 1 / a) / 2
 
     def exact_row(self, row: str, argument: Any) -> tuple[Fraction | None, ...] | None:
         """y' = v (a + 1/a)/2 + sqrt(1 + v^2) (a - 1/a)/2 from y' = v, where that root is rational."""
