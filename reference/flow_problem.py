@@ -39,8 +39,9 @@ from reference.problem import APART, HamiltonianProblem, Problem, required
 from reference.routes import quadrature
 from reference.routes.flow_events import crossing_times, crossings
 from reference.routes.proven_flow import LEAST_BITS, FlowSolution, lost, see
-from reference.routes.sensitivity import Sensitivity, Variational, Variations, condition, known_sensitivity
+from reference.routes.sensitivity import Sensitivity, Variations, known_sensitivity
 from reference.routes.taylor import Along, Passages
+from reference.routes.transition import TransitionSolution, frobenius
 from reference.row_domains import INDEX, TIME, Whole
 
 if TYPE_CHECKING:
@@ -238,13 +239,12 @@ class FlowProblem(Problem):
         return _FlowRows(self)
 
     def row_bits(self, row: str, arguments: Sequence[Any]) -> int:
-        times = [argument for argument in arguments if isinstance(argument, Fraction)]
-        return super().row_bits(row, times or [self.end])
+        times = [argument for argument in arguments if isinstance(argument, Fraction)] or [self.end]
+        more = lost(self, max(times, key=abs)) if row == CONDITION else 0  # what the state loses moves df/dy as well
+        return super().row_bits(row, times) + more
 
     def equation_of(self, row: str) -> Any:
         """Its own, with derivatives where the row is of these."""
-        if row == CONDITION:
-            return Variational(self)
         return self.sensitivity(row.removeprefix(SENSITIVITY)) if row.startswith(SENSITIVITY) else self
 
     @property
@@ -295,10 +295,11 @@ class _FlowRows(FlowSolution):
         if row == CONSERVED:
             start = problem.start_in(BALL)
             return [(BALL.number(Fraction(0)) + problem.conserved(index, BALL, start),) for index in arguments]
-        if row == CONDITION or row.startswith(SENSITIVITY):
-            states = FlowSolution(problem.equation_of(row)).rows("state", arguments)
-            found = [values[len(problem.state_names) :] for values in states]
-            return found if row != CONDITION else [(condition(BALL, values),) for values in found]
+        if row == CONDITION:
+            return [(frobenius(BALL, values),) for values in TransitionSolution(problem).rows("state", arguments)]
+        if row.startswith(SENSITIVITY):
+            flow, size = FlowSolution(problem.equation_of(row)), len(problem.state_names)
+            return [values[size:] for values in flow.rows("state", arguments)]
         return super().rows(row, arguments)
 
 
@@ -337,7 +338,7 @@ def _ends(route: TaylorRoute, row: str, arguments: Sequence[int]) -> Sequence[An
 
 def _condition(route: TaylorRoute, state: Sequence[Any]) -> Any:
     """The condition number, of the variations."""
-    return condition(route.m, state[len(route.problem.state_names) :])
+    return frobenius(route.m, state[len(route.problem.state_names) :])
 
 
 def _at_the_end(route: TaylorRoute, row: str, arguments: Sequence[int]) -> Sequence[Any]:

@@ -34,6 +34,7 @@ __all__ = [
     "Tape",
     "Variable",
     "bound",
+    "rounded",
     "supremum",
     "total",
 ]
@@ -354,7 +355,7 @@ def supremum(found: arb_poly) -> arb:
 _AROUND = arb(0, 1)
 
 
-def _rounded(made: arb_poly | arb_series, order: int) -> list[arb]:
+def rounded(made: arb_poly | arb_series, order: int) -> list[arb]:
     """The coefficients up to the order."""
     found = [term.mid() for term in made.coeffs()[: order + 1]]
     return found + [arb(0)] * (order + 1 - len(found))
@@ -400,7 +401,7 @@ class Linear(Node):
         return found.mid()
 
     def fill(self, order: int) -> None:
-        self.terms = _rounded(self.made, order)
+        self.terms = rounded(self.made, order)
 
     @cached_property
     def made(self) -> arb_poly:
@@ -427,7 +428,7 @@ class Product(Node):
         return _dot(self.a.terms[: k + 1], self.b.terms[: k + 1]).mid()
 
     def fill(self, order: int) -> None:
-        self.terms = _rounded(self.made, order)
+        self.terms = rounded(self.made, order)
 
     @cached_property
     def made(self) -> arb_poly:
@@ -473,7 +474,7 @@ class Inverse(Node):
         return -(_dot(self.a.terms[1 : k + 1], self.terms) * self.terms[0]).mid()
 
     def fill(self, order: int) -> None:
-        self.terms = _rounded(1 / _series(self.a), order)
+        self.terms = rounded(1 / _series(self.a), order)
 
     @cached_property
     def residual(self) -> arb:
@@ -506,7 +507,7 @@ class Root(Node):
         return ((self.a.terms[k] - _square(self.terms[1:])) / (2 * self.terms[0])).mid()
 
     def fill(self, order: int) -> None:
-        self.terms = _rounded(_series(self.a).sqrt(), order)
+        self.terms = rounded(_series(self.a).sqrt(), order)
 
     @cached_property
     def residual(self) -> arb:
@@ -540,7 +541,7 @@ class Exponential(Node):
         return (_dot(self.a.slope(k)[:k], self.terms) / k).mid()
 
     def fill(self, order: int) -> None:
-        self.terms = _rounded(_series(self.a).exp(), order)
+        self.terms = rounded(_series(self.a).exp(), order)
 
     @cached_property
     def residual(self) -> arb:
@@ -588,7 +589,7 @@ class _Pair(Node):
         raise NotImplementedError
 
     def fill(self, order: int) -> None:
-        self.terms, self.other.terms = (_rounded(one, order) for one in self.series(_series(self.a)))
+        self.terms, self.other.terms = (rounded(one, order) for one in self.series(_series(self.a)))
 
     def follow(self, k: int) -> arb:
         """The coefficient of the second function."""
@@ -681,7 +682,7 @@ class ByDerivative(Node):
 
     def fill(self, order: int) -> None:
         moved = (self.a.polynomial.derivative() * self.rate.polynomial).integral()
-        self.terms = _rounded(moved + self._function(self.a.terms[0]), order)
+        self.terms = rounded(moved + self._function(self.a.terms[0]), order)
 
     @cached_property
     def residual(self) -> arb:

@@ -19,15 +19,12 @@ from fractions import Fraction
 from functools import lru_cache, reduce
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
 from flint import arb, arb_mat, arb_poly
 
 from reference.arithmetic.balls import BALL
-from reference.arithmetic.dual import Dual, DualArithmetic
 from reference.arithmetic.limbs import WorkBoundError
 from reference.arithmetic.models import (
     BOUND_BITS,
-    Function,
     ModelArithmetic,
     Node,
     RefusedError,
@@ -38,6 +35,21 @@ from reference.arithmetic.models import (
 )
 from reference.arithmetic.precision import ctx
 from reference.once import cached_property
+from reference.routes.variation import (
+    PARTS,
+    Variation,
+    entry,
+    grown,
+    larger,
+    log2,
+    order_of,
+    orthogonal,
+    part,
+    sizes,
+    times,
+    unit,
+    upper,
+)
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -56,10 +68,6 @@ KEPT = 3
 """Equations whose flows are kept with their pieces, and flows of each, of other precisions."""
 LEAST_BITS, BITS_APART = 96, 16
 """Working precisions of flows: at least so many bits, and multiples of so many."""
-VARIATIONAL_BITS = 53
-"""df/dy is read in so many bits, and the derivative of a step's map found in doubles: errors need no more."""
-PARTS = 2
-"""Parts of a step on each of which df/dy is enclosed."""
 TRIES = 40
 """So often a step is halved before it is given up."""
 STEP_BITS = 8
@@ -68,10 +76,6 @@ SPARE = 10
 """A step whose own error comes to more than 2^SPARE roundings is halved, as long as that makes it smaller."""
 GAIN = 8
 """Bits that halving a step has to gain."""
-DECAY = 1.4
-"""Terms fall off by e^DECAY from one to the next where a step has its length: longer steps take more terms."""
-MOST_TERMS = 128
-"""Terms of the derivative of a step's map, at most: it is nearly an exponential, and a stiff one takes many."""
 SIDES = 10
 """Up to so many components a parallelepiped of errors is carried: it costs products of matrices in each step."""
 
@@ -150,6 +154,14 @@ class ProvenFlow:
         side = self._side(-1 if time < 0 else 1)
         return bool(side.pieces) and abs(time) <= abs(side.reached)
 
+    def place(self, time: Fraction) -> int:
+        """Which of the pieces of its side a time is on.
+
+        Raises:
+            WorkBoundError: the work bound is met before.
+        """
+        return self._side(-1 if time < 0 else 1).place(time)
+
     def pieces(self, sign: int) -> Sequence[Piece]:
         """What is proven so far of one side, in order."""
         return self._side(sign).pieces
@@ -158,7 +170,7 @@ class ProvenFlow:
         """How far one side is proven, and how many bits are lost there, of the largest component."""
         side = self._side(sign)
         largest = max((float(abs(value)) for value in side.middle), default=0.0)
-        error = max((_log2(value) for value in side.errors.sides if value != 0), default=-math.inf)
+        error = max((log2(value) for value in side.errors.sides if value != 0), default=-math.inf)
         return abs(side.reached), max(0.0, error + self.bits - math.log2(largest or 1.0))
 
 
@@ -171,25 +183,29 @@ class _Side:
         self._ends: list[Fraction] = []
         self.reached = Fraction(0)
         self._usual: float = SPARE
-        self.order = _order(bits)
+        self.order = order_of(bits)
         with ctx.workprec(bits):
             start = equation.start_in(BALL)
             sides = [bound(value.rad()) for value in start]
             self.middle = [value.mid() for value in start]
             self._reading = _Reading(equation)
-        self._variation = _Variation(equation)
+        self._variation = Variation(equation)
         self.errors: _Box | _Parallelepiped = _Box(sides)
-        if len(start) <= SIDES or getattr(equation, "turned", False):
-            self.errors = _Parallelepiped(_unit(len(start)), sides)
+        if len(start) <= SIDES:
+            self.errors = _Parallelepiped(unit(len(start)), sides)
 
     def piece(self, time: Fraction) -> Piece:
         """The piece on which a time lies."""
+        return self.pieces[self.place(time)]
+
+    def place(self, time: Fraction) -> int:
+        """Which of the pieces that is."""
         with ctx.workprec(self.bits):
             while not self.pieces or abs(time) > abs(self.reached):
                 self._require_granted(abs(time))
                 self._advance()
         place = bisect_right(self._ends, abs(time)) if time != self.reached else len(self.pieces) - 1
-        return self.pieces[min(place, len(self.pieces) - 1)]
+        return min(place, len(self.pieces) - 1)
 
     def _require_granted(self, time: Fraction) -> None:
         """Refuse a time that is not reached in the steps that are granted; looked at after every WATCHED of them.
@@ -264,12 +280,7 @@ class _Side:
         """log2 of an error in roundings of a component of this size."""
         if error == 0:
             return -math.inf
-        return _log2(error) + self.bits - _log2(unit) if unit != 0 else math.inf
-
-
-def _order(bits: int) -> int:
-    """Terms of polynomials of which each is e^DECAY times as small as that before it, to so many bits."""
-    return math.ceil(bits * math.log(2) / DECAY)
+        return log2(error) + self.bits - log2(unit) if unit != 0 else math.inf
 
 
 def _exact(value: Fraction) -> arb:
@@ -278,21 +289,15 @@ def _exact(value: Fraction) -> arb:
     return arb((value.numerator, -exponent))
 
 
-def _log2(value: arb) -> float:
-    """log2 of the size of an exact number, which is not zero, to within one."""
-    mantissa, exponent = value.man_exp()
-    return float(abs(int(mantissa)).bit_length() + int(exponent))
-
-
 def _length(variables: Sequence[Variable], bits: int) -> Fraction:
     """A step after which the last terms are below the last bit of their component; a guess, which the defect judges."""
     order = len(variables[0].terms) - 1
-    sizes = [_log2(one.terms[0]) if one.terms[0] != 0 else -math.inf for one in variables]
+    sizes = [log2(one.terms[0]) if one.terms[0] != 0 else -math.inf for one in variables]
     largest = max(sizes) if max(sizes) > -math.inf else math.inf  # at a start of zeros nothing is known of the sizes
     found = []
     for one in variables:
-        known = [(k, _log2(one.terms[k])) for k in range(order - 3, order + 1) if one.terms[k] != 0]
-        first = next((_log2(term) for term in one.terms if term != 0), -math.inf)
+        known = [(k, log2(one.terms[k])) for k in range(order - 3, order + 1) if one.terms[k] != 0]
+        first = next((log2(term) for term in one.terms if term != 0), -math.inf)
         size = max(sizes[variables.index(one)], min(first, largest))
         found += [(size - bits - log) / k for k, log in known]
     exponent = min(found, default=0.0)
@@ -322,7 +327,7 @@ class _Reading:
             ) from error
         except AttributeError as error:
             raise ValueError(f"the equation of {equation!r} asks for '{error.name}', which a flow has not.") from error
-        self.rates = [_entry(rate) for rate in rates]
+        self.rates = [entry(rate) for rate in rates]
         self.tape.keep([*self.variables, *self.rates])
         self._parts: list[arb] = []
 
@@ -355,15 +360,6 @@ class _Reading:
         return [_defect(one, rate, _exact(h)) for one, rate in zip(self.variables, self.rates, strict=True)]
 
 
-def _constant(value: Any) -> arb:
-    return BALL.number(value) if isinstance(value, Fraction) else arb(value)
-
-
-def _entry(value: Any) -> Node | arb:
-    """What was read of an equation: a node, or a number."""
-    return value.node if isinstance(value, Function) else _constant(value)
-
-
 def _defect(variable: Node, rate: Node | arb, h: arb) -> arb:
     found = rate.polynomial if isinstance(rate, Node) else arb_poly([rate])
     off = variable.polynomial.derivative() - h * found
@@ -383,7 +379,7 @@ class _Tube:
 
     def __init__(
         self,
-        variation: _Variation,
+        variation: Variation,
         variables: Sequence[Variable],
         time: arb,
         step: arb,
@@ -395,29 +391,22 @@ class _Tube:
         largest = reduce(larger, (one.norm for one in variables)) * arb(2) ** -64
         least = [larger(one.norm, largest) * arb(2) ** -40 for one in variables]
         room = [bound(4 * one + small) for one, small in zip(driven, least, strict=True)]
-        variation.follow(variables, time, step)
+        variation.follow([one.polynomial for one in variables], time, step)
         for _ in range(4):
             variation.close(room)
-            self._slopes = [variation.slopes(_part(j)) for j in range(PARTS)]
-            self.growth = self._grown([_positive(slopes) for slopes in self._slopes])
-            self.errors = _times(self.growth, driven)
+            self._slopes = [variation.slopes(part(j)) for j in range(PARTS)]
+            self.growth = grown(self._slopes)
+            self.errors = times(self.growth, driven)
             if all(error < one for error, one in zip(self.errors, room, strict=True)):
                 return
             room = [bound(4 * larger(error, one)) for error, one in zip(self.errors, room, strict=True)]
         raise RefusedError("no room around the step is enough")
 
-    def _grown(self, parts: Sequence[Sequence[Sequence[arb]]]) -> arb_mat:
-        size = len(parts[0])
-        found = _unit(size)
-        for part in parts:
-            found = _upper((arb_mat([list(row) for row in part]) / PARTS).exp() * found)
-        return found
-
     def end(self, sides: Sequence[arb]) -> list[arb]:
         """A bound of the errors at the end of the step from those at its start (rule 11)."""
         found = list(sides)
-        for grown in self._ends:
-            found = _times(grown, [*found, self._largest])[:-1]
+        for factor in self._ends:
+            found = times(factor, [*found, self._largest])[:-1]
         return found
 
     @cached_property
@@ -436,40 +425,8 @@ class _Tube:
                 for i, row in enumerate(slopes)
             ]
             rows = [[*(value / PARTS for value in row), push] for row, push in zip(metzler, driven, strict=True)]
-            found.append(_upper(arb_mat([*rows, [arb(0)] * (len(driven) + 1)]).exp()))
+            found.append(upper(arb_mat([*rows, [arb(0)] * (len(driven) + 1)]).exp()))
         return found
-
-
-def _part(j: int) -> arb:
-    """The j-th part of [0, 1]."""
-    return (arb(2 * j + 1) + arb(0, 1)) / (2 * PARTS)
-
-
-def larger(a: arb, b: arb) -> arb:
-    """The larger of two exact numbers, neither of which is NaN."""
-    return max(b, a)
-
-
-def _positive(slopes: Sequence[Sequence[arb]]) -> list[list[arb]]:
-    """|h df/dy| apart from the diagonal, and on it the positive part of its upper end; all are finite."""
-    return [
-        [larger(value.upper(), arb(0)) if i == j else value.abs_upper() for j, value in enumerate(row)]
-        for i, row in enumerate(slopes)
-    ]
-
-
-def _upper(matrix: arb_mat) -> arb_mat:
-    """The upper ends of a matrix that has no negative entry, whatever its balls hold besides."""
-    return arb_mat([[larger(bound(value), arb(0)) for value in row] for row in matrix.tolist()])
-
-
-def _sizes(matrix: arb_mat) -> arb_mat:
-    """The bounds of the entries' sizes."""
-    return arb_mat([[bound(value.abs_upper()) for value in row] for row in matrix.tolist()])
-
-
-def _times(matrix: arb_mat, vector: Sequence[arb]) -> list[arb]:
-    return [bound(row[0]) for row in (matrix * arb_mat([[value] for value in vector])).tolist()]
 
 
 class _Box:
@@ -490,154 +447,20 @@ class _Parallelepiped:
 
     def __init__(self, a: arb_mat, b: Sequence[arb]) -> None:
         self.a, self.b = a, list(b)
-        self.sides = _times(_sizes(a), self.b)
+        self.sides = times(sizes(a), self.b)
 
     def moved(self, tube: _Tube, off: Sequence[arb], local: Sequence[arb], rounded: Sequence[arb]) -> _Parallelepiped:
         """The errors after the step, its own ``local`` ones among them."""
         boxed = _Box(self.sides).moved(tube, off, local, rounded)
         added = [bound(one + off) for one, off in zip(local, rounded, strict=True)]
         turned = tube.variation.derivative(tube.growth) * self.a
-        q = _orthogonal(turned, self.b)
+        q = orthogonal(turned, self.b)
         back = q.inv()
-        carried, begun = _times(_sizes(back * turned), self.b), _times(_sizes(back), added)
+        carried, begun = times(sizes(back * turned), self.b), times(sizes(back), added)
         turned_on = _Parallelepiped(q, [bound(one + other) for one, other in zip(carried, begun, strict=True)])
         if all(one < other for one, other in zip(boxed.sides, turned_on.sides, strict=True)):
-            return _Parallelepiped(_unit(len(self.b)), boxed.sides)
+            return _Parallelepiped(unit(len(self.b)), boxed.sides)
         return turned_on
-
-
-def _unit(size: int) -> arb_mat:
-    """The unit matrix."""
-    return arb_mat([[arb(int(i == j)) for j in range(size)] for i in range(size)])
-
-
-def _orthogonal(matrix: arb_mat, lengths: Sequence[arb]) -> arb_mat:
-    """Exact columns that are about orthonormal, the longest of the matrix's columns first; the unit matrix where they
-    are beyond the range of doubles.
-    """
-    size = matrix.nrows()
-    columns = np.array([float(one.mid()) for one in matrix.entries()]).reshape(size, size)
-    norms = np.abs(columns).max(axis=0)
-    if not (np.isfinite(norms).all() and norms.all()):
-        return _unit(size)
-    logs = [_log2(length) if length != 0 else -math.inf for length in lengths]
-    order = np.argsort(-(np.log2(norms) + logs), kind="stable")
-    return arb_mat(np.linalg.qr(columns[:, order] / norms[order])[0].tolist())
-
-
-class _Variation:
-    """df/dy about the polynomials of a step, read once in nodes of few bits; and the derivative of the step's map by
-    its start, from the variational equation V' = h df/dy V (rule 13).
-    """
-
-    def __init__(self, equation: Equation) -> None:
-        self._order = _order(VARIATIONAL_BITS)
-        self._tape = Tape()
-        self._size = size = len(equation.state_names)
-        self._known: list[list[arb]] = []
-        self._h = arb(0)
-        with ctx.workprec(VARIATIONAL_BITS):
-            duals: Any = DualArithmetic(ModelArithmetic(self._tape), size)  # type: ignore[arg-type]
-            variables = [Variable(self._tape, lambda k, i=i: self._known[i][k]) for i in range(size + 1)]  # type: ignore[misc]
-            state = [duals.variable(one, i) for i, one in enumerate(variables[:-1])]
-            p = {name: BALL.number(value) for name, value in equation.parameters.items()}
-            rates = equation.derivative(duals, variables[-1], state, p)
-            zeros = (arb(0),) * size
-            self._rows = [[_entry(one) for one in (rate.slopes if isinstance(rate, Dual) else zeros)] for rate in rates]
-            values = [_entry(rate.value if isinstance(rate, Dual) else rate) for rate in rates]
-        self._constants = [
-            one for one in (*values, *(one for row in self._rows for one in row)) if isinstance(one, arb)
-        ]
-        self._tape.keep([*variables, *(one for row in (values, *self._rows) for one in row)])
-
-    def follow(self, variables: Sequence[Variable], time: arb, h: arb) -> None:
-        """Take the polynomials of a step, in fewer terms and bits.
-
-        Raises:
-            RefusedError: what is constant in the equation or its derivative is not finite.
-        """
-        if not all(one.is_finite() for one in self._constants):
-            raise RefusedError("the equation or its derivative is not finite")
-        order = min(self._order, len(variables[0].terms) - 1)
-        with ctx.workprec(VARIATIONAL_BITS):
-            self._known = [[(term * 1).mid() for term in one.terms[: order + 1]] for one in variables]
-            missed = [one.polynomial - arb_poly(known) for one, known in zip(variables, self._known, strict=True)]
-            self._cut = [supremum(one) for one in missed]
-            clock = [(time * 1).mid(), (h * 1).mid()]
-            self._cut.append(bound((time - clock[0]).abs_upper() + (h - clock[1]).abs_upper()))
-            self._known.append([*clock, *[arb(0)] * order])
-            self._h = h
-            self._tape.begin()
-            self._tape.fill(order)
-
-    def close(self, room: Sequence[arb]) -> None:
-        """Enclose f and df/dy at all that is within the room of the polynomials.
-
-        Raises:
-            RefusedError: they are not known to be finite there.
-        """
-        self._tape.close([bound(one + cut) for one, cut in zip((*room, arb(0)), self._cut, strict=True)])
-
-    def slopes(self, s: arb) -> list[list[arb]]:
-        """h df/dy there, on a part of the step."""
-        return [
-            [self._h * (one.polynomial(s) + arb(0, one.remainder) if isinstance(one, Node) else one) for one in row]
-            for row in self._rows
-        ]
-
-    def derivative(self, growth: arb_mat) -> arb_mat:
-        """What the derivative of the step's map lies in, at every start of which the solution is in the room."""
-        found, size = self._columns(), range(self._size)
-        columns = [[arb_poly(found[:, i, j].tolist()) for i in size] for j in size]
-        defects = self._defects(columns)
-        ends = []
-        for j, column in enumerate(columns):
-            off = _times(growth, [row[j] for row in defects])
-            ends.append([one(arb(1)) + arb(0, error) for one, error in zip(column, off, strict=True)])
-        return arb_mat([list(row) for row in zip(*ends, strict=True)])
-
-    def _columns(self) -> np.ndarray:
-        """The coefficients of V, about which nothing is claimed: (k + 1) V_{k+1} = h sum_i J_i V_{k-i}, in doubles."""
-        size, terms = self._size, len(self._known[0])
-        slopes = np.zeros((size, terms, size))
-        for i, row in enumerate(self._rows):
-            for j, one in enumerate(row):
-                known = one.terms if isinstance(one, Node) else [one]
-                slopes[i, : len(known), j] = [float(term) for term in known]
-        flat = float(self._h) * slopes.reshape(size, -1)
-        order = self._order_for(np.abs(flat[:, :size]).sum(axis=1).max())
-        backward = np.zeros(((order + 1) * size, size))  # V_order, ..., V_0, one below the other
-        backward[-size:] = np.eye(size)
-        for k in range(order):
-            at, used = (order - k) * size, min(k + 1, terms) * size
-            backward[at - size : at] = flat[:, :used] @ backward[at : at + used] / (k + 1)
-        return backward.reshape(order + 1, size, size)[::-1]
-
-    def _order_for(self, stretch: float) -> int:
-        """Terms of the exponential of a matrix of this norm, to VARIATIONAL_BITS."""
-        order, size = self._order, math.log2(max(1.0, stretch))
-        while order < MOST_TERMS and order * size - math.lgamma(order + 1) / math.log(2) > -VARIATIONAL_BITS:
-            order += self._order // 4
-        return order
-
-    def _defects(self, columns: Sequence[Sequence[arb_poly]]) -> list[list[arb]]:
-        """Bounds of |V' - h J V| on the step, entry by entry (rules 1, 2 and 9)."""
-        h, norms = self._h, [[supremum(one) for one in column] for column in columns]
-        found = []
-        for i, row in enumerate(self._rows):
-            known = [
-                (j, one.polynomial, one.remainder) if isinstance(one, Node) else (j, arb_poly([one]), arb(0))
-                for j, one in enumerate(row)
-                if isinstance(one, Node) or not one.is_zero()
-            ]
-            bounds = []
-            for column, sizes in zip(columns, norms, strict=True):
-                turned = sum((slope * column[j] for j, slope, _ in known), arb_poly())
-                off = supremum(column[i].derivative() - h * turned)
-                missed = sum((remainder * sizes[j] for j, _, remainder in known), arb(0))
-                bounds.append(bound(off + abs(h) * missed))
-            found.append(bounds)
-        return found
 
 
 class FlowSolution:
@@ -657,13 +480,21 @@ class FlowSolution:
             raise ValueError(f"{row} of {self._problem!r} has no closed form; its state is proven by its flow.")
         flow = proven(self._problem, ctx.prec, max(arguments, key=abs))
         try:
-            found = [tuple(flow.at(time)) for time in arguments]
+            found = [self.read(flow, time) for time in arguments]
         except HorizonError as end:
             put_off(self._problem, end, flow.bits)
-            return [(arb.nan(),) * len(self._problem.state_names)] * len(arguments)
+            return [self.unread()] * len(arguments)
         for sign in {-1 if time < 0 else 1 for time in arguments}:
             _note(flow, sign)
         return found
+
+    def read(self, flow: ProvenFlow, time: Fraction) -> tuple[arb, ...]:
+        """What is read of a flow at a time."""
+        return tuple(flow.at(time))
+
+    def unread(self) -> tuple[arb, ...]:
+        """As many balls that hold every number."""
+        return (arb.nan(),) * len(self._problem.state_names)
 
 
 def put_off(asked: Any, end: HorizonError, bits: int) -> None:

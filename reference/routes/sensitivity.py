@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
     from reference.routes.taylor import TaylorRoute
 
-__all__ = ["Sensitivity", "Variational", "Variations", "condition", "known_sensitivity"]
+__all__ = ["Sensitivity", "Variations", "known_sensitivity"]
 
 LOOK_BITS = 64
 """Working precision at which it is seen which slopes of an equation are zero everywhere."""
@@ -75,49 +75,6 @@ class Sensitivity:
         zero = m.number(Fraction(0))
         values = [rate.value if isinstance(rate, Dual) else rate for rate in rates]
         return *values, *(rate.slopes[0] if isinstance(rate, Dual) else zero for rate in rates)
-
-
-@dataclass(frozen=True, repr=False)
-class Variational:
-    """The state of a problem and its derivatives by every component of the start: V' = df/dy V, V(0) = 1."""
-
-    problem: Any
-    turned = True
-    """Its errors part as those of the state do, and are carried as theirs, however many components it has."""
-
-    def __repr__(self) -> str:
-        return f"{self.problem!r} with its derivatives by the start"
-
-    @property
-    def state_names(self) -> tuple[str, ...]:
-        """The components, then the derivatives of the first one, of the second one, ..."""
-        names = self.problem.state_names
-        return *names, *(f"d{name}_d{by}" for name in names for by in names)
-
-    @property
-    def parameters(self) -> dict[str, Fraction]:
-        """Those of the problem."""
-        found: dict[str, Fraction] = self.problem.parameters
-        return found
-
-    def start_in(self, m: Any) -> list[Any]:
-        """The start and the unit matrix, as numbers of an arithmetic."""
-        size = range(len(self.problem.state_names))
-        return [*self.problem.start_in(m), *(m.number(Fraction(int(i == j))) for i in size for j in size)]
-
-    def derivative(self, m: Any, t: Any, y: Sequence[Any], p: dict[str, Any]) -> tuple[Any, ...]:
-        """(f, df/dy V)."""
-        size = len(self.problem.state_names)
-        state = [Dual(y[i], tuple(y[size * (i + 1) : size * (i + 2)])) for i in range(size)]
-        rates = self.problem.derivative(DualArithmetic(m, size), t, state, p)
-        zeros = (m.number(Fraction(0)),) * size
-        values = [rate.value if isinstance(rate, Dual) else rate for rate in rates]
-        return *values, *(one for rate in rates for one in (rate.slopes if isinstance(rate, Dual) else zeros))
-
-
-def condition(m: Any, derivatives: Sequence[Any]) -> Any:
-    """The Frobenius norm of the derivatives of a state by its start: how far errors of the start are carried."""
-    return m.sqrt(sum((one * one for one in derivatives), m.number(Fraction(0))))
 
 
 @dataclass(frozen=True)

@@ -14,8 +14,9 @@ import pytest
 from flint import arb, arb_mat
 
 from reference.arithmetic.limbs import WorkBoundError
-from reference.routes import proven_flow
+from reference.routes import proven_flow, variation
 from reference.routes.proven_flow import ProvenFlow
+from reference.routes.variation import Variation
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -203,15 +204,15 @@ def falsified(self: Any, t: Any, start: Sequence[arb], order: int) -> None:
     terms[3] = (terms[3] + self.variables[0].norm * arb(2) ** -45).mid()
 
 
-TRUE_DERIVATIVE = proven_flow._Variation.derivative
+TRUE_DERIVATIVE = Variation.derivative
 TRUE_END = proven_flow._Tube.end
-TRUE_CLOSE = proven_flow._Variation.close
+TRUE_CLOSE = Variation.close
 TRUE_GROW = proven_flow._Reading.grow
 TRUE = (
-    (proven_flow._Variation, "derivative", TRUE_DERIVATIVE),
-    (proven_flow._Variation, "close", TRUE_CLOSE),
+    (Variation, "derivative", TRUE_DERIVATIVE),
+    (Variation, "close", TRUE_CLOSE),
     (proven_flow._Tube, "end", TRUE_END),
-    (proven_flow, "_upper", proven_flow._upper),
+    (variation, "upper", variation.upper),
     (proven_flow, "_defect", proven_flow._defect),
     (proven_flow._Reading, "grow", TRUE_GROW),
 )
@@ -230,10 +231,10 @@ def test_a_false_coefficient_is_paid_for(system: System, sides: int, monkeypatch
     [
         (RICCATI, Fraction(1, 2**12), 0, proven_flow._Tube, "end", of_the_defect_alone),
         (SYSTEMS[-1], Fraction(0), 0, proven_flow._Tube, "end", of_the_start_alone),
-        (RICCATI, Fraction(1, 2**12), 10, proven_flow._Variation, "derivative", half_as_long),
-        (RICCATI, Fraction(1, 2**6), 10, proven_flow._Variation, "derivative", of_the_midpoint_alone),
-        (RICCATI, Fraction(1, 2**12), 0, proven_flow, "_upper", half_of_the_growth),
-        (RICCATI, Fraction(1, 2**6), 0, proven_flow._Variation, "close", without_room),
+        (RICCATI, Fraction(1, 2**12), 10, Variation, "derivative", half_as_long),
+        (RICCATI, Fraction(1, 2**6), 10, Variation, "derivative", of_the_midpoint_alone),
+        (RICCATI, Fraction(1, 2**12), 0, variation, "upper", half_of_the_growth),
+        (RICCATI, Fraction(1, 2**6), 0, Variation, "close", without_room),
         (RELAXING, Fraction(0), 10, proven_flow, "_defect", without_the_defect),
     ],
     ids=lambda value: getattr(value, "__name__", ""),
@@ -242,7 +243,7 @@ def test_a_wrong_step_is_noticed(
     system: System, radius: Fraction, sides: int, where: Any, name: str, wrong: Any, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(proven_flow, "SIDES", sides)
-    monkeypatch.setattr(proven_flow, "DECAY", SHORT_STEPS)
+    monkeypatch.setattr(variation, "DECAY", SHORT_STEPS)
     if not radius:
         monkeypatch.setattr(proven_flow._Reading, "grow", falsified)
     assert outside(system, radius, 50) == 0
