@@ -104,7 +104,7 @@ def flow_family(kind: Any, words: str, *, varied: str = "") -> Family:
         ),
         reported=(Reported(kind.name, first, "", "", (value,), _With(kind, first), marched.end),),
         layouts=tuple(_layout(given, words) for given in groups),
-        core=_Groups(groups if kind.in_core else (), words, TIMES),
+        core=_Groups(groups, words, TIMES),
         full=_Groups(groups, words, FULL_TIMES),
     )
 

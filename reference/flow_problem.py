@@ -103,8 +103,6 @@ class FlowProblem(Problem):
     """Until when a dataset has it; of itself where a march ends."""
     variants: ClassVar[tuple[Mapping[str, str], ...]] = ()
     """Other inputs of which a dataset has a group each, such as other energies."""
-    in_core: ClassVar[bool] = True
-    """Whether the core dataset has it, which what takes minutes leaves to the full one."""
     crossings: ClassVar[int] = 0
     """How many crossings a dataset has."""
     known_for: ClassVar[tuple[str, ...]] = ()
@@ -240,8 +238,16 @@ class FlowProblem(Problem):
 
     def row_bits(self, row: str, arguments: Sequence[Any]) -> int:
         times = [argument for argument in arguments if isinstance(argument, Fraction)] or [self.end]
-        more = lost(self, max(times, key=abs)) if row == CONDITION else 0  # what the state loses moves df/dy as well
-        return super().row_bits(row, times) + more
+        lost_too = (
+            lost(self, max(times, key=abs)) if row == CONDITION else 0
+        )  # what the state loses moves df/dy as well
+        return super().row_bits(row, times) + 3 * lost_too // 2
+
+    def foresee(self, row: str, arguments: Sequence[Any]) -> None:
+        """By a flow of few bits, of the state."""
+        del row
+        times = [argument for argument in arguments if isinstance(argument, Fraction)] or [self.end]
+        see(self, max(times, key=abs), LEAST_BITS)
 
     def equation_of(self, row: str) -> Any:
         """Its own, with derivatives where the row is of these."""

@@ -369,6 +369,13 @@ class Problem:
         lost = max(proven_flow.lost(self.equation_of(row), _latest(arguments)), LEAST_LOST)
         return lost - SPARED_BITS + len(arguments).bit_length()
 
+    def more_bits(self, row: str, bits: int) -> int:
+        """What to take after so many working bits, which were not enough: twice as many, of a flow less."""
+        return 2 * bits if self.has_closed_form else proven_flow.more_bits(self.equation_of(row), bits)
+
+    def foresee(self, row: str, arguments: Sequence[Any]) -> None:
+        """Learn what a proof of these will lose, before many are asked for; only speed depends on it."""
+
     def by_route(
         self, route: str, row: str, arguments: Sequence[Any], digits: int
     ) -> list[tuple[Fraction, ...]] | None:
@@ -380,7 +387,7 @@ class Problem:
         arguments = self.arguments(row, arguments)
         if not self.has_closed_form:
             proven_flow.see(self.equation_of(row), _latest(arguments), int(digits * 3.33) + SEEN_BITS)
-        bits = int(digits * 3.33) + 2 * max(0, self.row_bits(row, arguments)) + 30
+        bits = int(digits * 3.33) + self._route_bits(row, arguments)
         if route in dict(self.row(row).lacks) or bits > ROUTE_BITS:
             return None
         if route == "quadrature" and not self.has_closed_form:
@@ -391,6 +398,12 @@ class Problem:
             return None
         with mp.workprec(bits):
             return self.taylor_form(bits).rows(row, arguments)
+
+    def _route_bits(self, row: str, arguments: Sequence[Any]) -> int:
+        """Bits of a route that proves nothing, beside those that it is held to."""
+        if self.has_closed_form:
+            return 2 * self.row_bits(row, arguments) + 30
+        return max(30, self.row_bits(row, arguments) + SPARED_BITS + 20)
 
     def row(self, name: str) -> Row:
         """The row of this name.

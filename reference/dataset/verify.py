@@ -11,7 +11,7 @@ import numpy as np
 from reference.arithmetic.arrays import unsigned_zeros
 from reference.arithmetic.binary64 import shortest
 from reference.command.executors import opened, results
-from reference.dataset.blocks import LIMBS, START_BITS, compare, decimals, prove, require_portable, together
+from reference.dataset.blocks import LIMBS, START_BITS, compare, decimals, most_first, prove, require_portable, together
 from reference.dataset.claims import decimal_fault, measurement_fault
 from reference.dataset.errors import DatasetError
 from reference.dataset.reader import load
@@ -119,7 +119,8 @@ def verify(
 
 def _again(blocks: tuple[Block, ...]) -> list[tuple[np.ndarray, tuple[str, ...]]]:
     """Of each block the proven limbs from twice the precision of the build, and the proven decimals."""
-    return [(prove(block, 2 * START_BITS), decimals(block)) for block in blocks]
+    found = {place: (prove(blocks[place], 2 * START_BITS), decimals(blocks[place])) for place in most_first(blocks)}
+    return [found[place] for place in range(len(blocks))]
 
 
 def _group(dataset: Dataset, path: str) -> Group:

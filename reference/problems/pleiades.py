@@ -32,7 +32,6 @@ class Pleiades(Gravitation):
     equation = "q_i'' = sum over j of m_j (q_j - q_i)/|q_j - q_i|^3, m_i = i, i = 1, ..., 7"
     invariants = conserved("xy", "start")
     t_end = 3.0
-    in_core = False
     source = "E. Hairer, S. P. Norsett and G. Wanner, Solving Ordinary Differential Equations I, 1993, section II.10"
     difficulty = "higher: 28 components, whose close encounters multiply errors"
     meanings: ClassVar[dict[str, str]] = {

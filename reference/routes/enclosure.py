@@ -55,9 +55,9 @@ def decide(
         return bits + GUARD_BITS + problem.row_bits(row, [arguments[i] for i in pending])
 
     def more(found: int) -> int:
-        """After what was not enough: what is asked now that more is known of what is lost, or twice as many."""
+        """After what was not enough: what is asked now that more is known of what is lost, or more than that."""
         again = asked()
-        return again if again > found else 2 * found
+        return again if again > found else problem.more_bits(row, found)
 
     start = asked()
     bound = min(problem.max_bits, problem.row(row).max_bits)

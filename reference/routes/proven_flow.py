@@ -56,7 +56,18 @@ if TYPE_CHECKING:
 
     from reference.declaration import Equation
 
-__all__ = ["KEPT", "FlowSolution", "HorizonError", "Piece", "ProvenFlow", "lost", "proven", "put_off", "see"]
+__all__ = [
+    "KEPT",
+    "FlowSolution",
+    "HorizonError",
+    "Piece",
+    "ProvenFlow",
+    "lost",
+    "more_bits",
+    "proven",
+    "put_off",
+    "see",
+]
 
 STEPS = 1 << 15
 """Steps that are granted to a flow."""
@@ -523,6 +534,11 @@ def proven(equation: Any, bits: int, time: Fraction = Fraction(0)) -> ProvenFlow
             del flows[known]
         flows[shared] = ProvenFlow(equation, shared, STEPS)
     return flows[shared]
+
+
+def more_bits(equation: Any, bits: int) -> int:
+    """What to take after a flow of so many bits: those of the next one that is there, or half as many more."""
+    return min((known for known in _flows(equation) if known > bits + BITS_APART), default=bits + bits // 2)
 
 
 @lru_cache(maxsize=KEPT)

@@ -14,7 +14,7 @@ from flint import arb
 
 from reference.arithmetic.balls import BALL
 from reference.arithmetic.precision import ctx
-from reference.routes.proven_flow import KEPT, FlowSolution
+from reference.routes.proven_flow import KEPT, LEAST_BITS, FlowSolution
 from reference.routes.variation import PARTS, Variation, grown, orthogonal, part, unit
 
 if TYPE_CHECKING:
@@ -46,7 +46,9 @@ class Transition:
 
     def __init__(self, flow: ProvenFlow, sign: int) -> None:
         self._flow, self._sign = flow, sign
-        self._variation = Variation(flow.equation, flow.bits)
+        _, lost = flow.lost(sign)
+        bits = max(flow.bits - int(lost), min(flow.bits, LEAST_BITS))  # df/dy is known to no more
+        self._variation = Variation(flow.equation, bits)
         self._carried: list[_Carried] = []
         size = len(flow.equation.state_names)
         self._q, self._r = unit(size), unit(size)

@@ -256,6 +256,7 @@ def sizes(matrix: arb_mat) -> arb_mat:
 
 
 def times(matrix: arb_mat, vector: Sequence[arb]) -> list[arb]:
+    """Bounds of a matrix without negative entries times a vector of bounds."""
     return [bound(row[0]) for row in (matrix * arb_mat([[value] for value in vector])).tolist()]
 
 
