@@ -74,6 +74,8 @@ MULTIPLE = Whole("multiple", "multiple")
 """Of the end, which is an exact decimal."""
 COUNT_BITS = 1 << 12
 """A crossing that so many bits do not tell from the end of the time in which they are counted is at that end."""
+VARIED = Fraction(1, 4)
+"""Many condition numbers are held against variations up to this part of a march."""
 KNOWN_BITS = 100
 """So many more bits than it is held against does the state take that mathematics knows."""
 START_BITS = 4096
@@ -242,6 +244,12 @@ class FlowProblem(Problem):
             lost(self, max(times, key=abs)) if row == CONDITION else 0
         )  # what the state loses moves df/dy as well
         return super().row_bits(row, times) + 3 * lost_too // 2
+
+    def within_taylor(self, row: str, arguments: Sequence[Any]) -> bool:
+        """As ever; of many condition numbers those of the first times, since variations take longer than the proof."""
+        if row == CONDITION and len(arguments) > 1 and max(arguments) > VARIED * self.end:
+            return False
+        return super().within_taylor(row, arguments)
 
     def foresee(self, row: str, arguments: Sequence[Any]) -> None:
         """By a flow of few bits, of the state."""

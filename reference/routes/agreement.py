@@ -25,7 +25,8 @@ if TYPE_CHECKING:
 __all__ = ["REQUIRED_DIGITS", "ROUTES", "ROUTE_DIGITS", "Agreement", "DisagreementError", "agreement"]
 
 REQUIRED_DIGITS = 45
-ROUTE_DIGITS = 60
+ROUTE_DIGITS, FLOW_DIGITS = 60, 50
+"""To so many digits routes are held against the enclosure, and where that is a flow."""
 FAR = Fraction(10) ** 300
 """A gap that is larger is as bad."""
 ROUTES = ("taylor", "quadrature")
@@ -54,15 +55,16 @@ def agreement(problem: Declared, row: str, arguments: Sequence[Any], route: str)
     Raises:
         DisagreementError: fewer than REQUIRED_DIGITS digits agree somewhere.
     """
-    found = problem.by_route(route, row, arguments, ROUTE_DIGITS)
+    held = ROUTE_DIGITS if problem.has_closed_form else FLOW_DIGITS
+    found = problem.by_route(route, row, arguments, held)
     if found is None:
         return None
-    proven = enclosure.balls(problem, row, arguments, int(ROUTE_DIGITS * 3.33) + 20)
+    proven = enclosure.balls(problem, row, arguments, int(held * 3.33) + 20)
     asked, results = problem.row(row), []
     for i, quantity in enumerate(asked.quantities):
         pairs = [(truth[i], value[i]) for truth, value in zip(proven, found, strict=True)]
         each = [[pair] for pair in pairs] if asked.over == "index" else [pairs]
-        digits = [found for compared in each for found in _digits(compared)]
+        digits = [found for compared in each for found in _digits(compared, held)]
         worst = min(range(len(pairs)), key=digits.__getitem__)
         if digits[worst] < REQUIRED_DIGITS:
             truth, value = pairs[worst]
@@ -75,12 +77,12 @@ def agreement(problem: Declared, row: str, arguments: Sequence[Any], route: str)
     return tuple(results)
 
 
-def _digits(pairs: Sequence[tuple[arb, Fraction]]) -> list[float]:
-    """The digits of each pair, at most ROUTE_DIGITS, by exact arithmetic on the balls' middles and radii."""
+def _digits(pairs: Sequence[tuple[arb, Fraction]], most: int) -> list[float]:
+    """The digits of each pair, at most so many, by exact arithmetic on the balls' middles and radii."""
     balls = [(_point(truth.mid()), _point(truth.rad()), value) for truth, value in pairs]
     scale = max(abs(middle) + radius for middle, radius, _ in balls) or Fraction(1)
     gaps = [float(min((abs(middle - value) + radius) / scale, FAR)) for middle, radius, value in balls]
-    return [min(float(ROUTE_DIGITS), -math.log10(gap)) if gap else float(ROUTE_DIGITS) for gap in gaps]
+    return [min(float(most), -math.log10(gap)) if gap else float(most) for gap in gaps]
 
 
 def _point(exact: arb) -> Fraction:

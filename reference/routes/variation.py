@@ -158,12 +158,19 @@ class Variation:
         """The same in as many bits as it is read in."""
         size, h = range(self._size), self._h
         slopes = self._slopes(arb(0), lambda term: (h * term).mid())
-        matrices = [arb_mat([[one[k] for one in row] for row in slopes]) for k in range(len(self._known[0]))]
+        varied = [i for i in size if any(isinstance(one, Node) for one in self._rows[i])]
+        first = arb_mat([[one[0] for one in row] for row in slopes])
+        others = [arb_mat([[one[k] for one in slopes[i]] for i in varied]) for k in range(1, len(slopes[0][0]))]
         order = self._order_for(max(sum(float(abs(one[0])) for one in row) for row in slopes))
         found = [unit(self._size)]
         for k in range(order):
-            pairs = zip(matrices[: k + 1], reversed(found), strict=False)
-            found.append((sum((slope * one for slope, one in pairs), arb_mat(*[self._size] * 2)) / (k + 1)).mid())
+            moved = (first * found[k]).tolist()
+            if varied:
+                pairs = zip(others[:k], reversed(found[:k]), strict=False)
+                more = sum((slope * one for slope, one in pairs), arb_mat(len(varied), self._size)).tolist()
+                for i, row in zip(varied, more, strict=True):
+                    moved[i] = [one + other for one, other in zip(moved[i], row, strict=True)]
+            found.append((arb_mat(moved) / (k + 1)).mid())
         entries = [one.entries() for one in found]
         return [[arb_poly([one[i * self._size + j] for one in entries]) for j in size] for i in size]
 
