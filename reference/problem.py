@@ -367,7 +367,8 @@ class Problem:
         if self.has_closed_form:
             return self.working_bits(arguments)
         lost = max(proven_flow.lost(self.equation_of(row), _latest(arguments)), LEAST_LOST)
-        return lost - SPARED_BITS + len(arguments).bit_length()
+        decided = len(arguments) * len(self.row(row).quantities)
+        return lost - SPARED_BITS + decided.bit_length()
 
     def more_bits(self, row: str, bits: int) -> int:
         """What to take after so many working bits, which were not enough: twice as many, of a flow less."""
