@@ -10,7 +10,6 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
 from flint import arb, arb_mat, arb_poly
 
 from reference.arithmetic.balls import BALL
@@ -143,6 +142,8 @@ class Variation:
 
     def _in_doubles(self) -> list[list[arb_poly]]:
         """V, about which nothing is claimed: (k + 1) V_{k+1} = h sum_i J_i V_{k-i}."""
+        from reference.arithmetic.arrays import np
+
         size, terms = self._size, len(self._known[0])
         flat = float(self._h) * np.array(self._slopes(0.0, float)).transpose(0, 2, 1).reshape(size, -1)
         order = self._order_for(np.abs(flat[:, :size]).sum(axis=1).max())
@@ -284,6 +285,8 @@ def orthogonal(matrix: arb_mat, lengths: Sequence[arb] | None = None) -> arb_mat
     """Exact columns that are about orthonormal, from those of the matrix in order, or the longest ones first where
     lengths to multiply them by are given; the unit matrix where they are beyond the range of doubles.
     """
+    from reference.arithmetic.arrays import np
+
     size = matrix.nrows()
     columns = np.array([float(one.mid()) for one in matrix.entries()]).reshape(size, size)
     norms = np.abs(columns).max(axis=0)
