@@ -154,18 +154,22 @@ def as_text(family: Family, inputs: Mapping[str, Any], found: list[Certified], d
     """The inputs as they were solved, then one line a quantity with its units."""
     units = {asked.name: asked.units for asked in family.inputs}
     lines = [f"{family.name}: {family.help}", "inputs, exact:"]
-    lines += [f"  {name} = {_shown(value)} {units[name]}".rstrip() for name, value in inputs.items()]
+    lines += [f"  {name} = {_shown(value)}{_unit(units[name])}" for name, value in inputs.items()]
     if constants := _constants(found):
         lines.append("constants, exact:")
         lines += [f"  {constant}" for constant in constants]
     lines.append(f"values, {digits} significant digits, every one proven:")
     for value in found:
-        unit = "" if value.quantity.units == "1" else f" {value.quantity.units}"
-        lines.append(f"  {value.quantity.name} = {value.digits(digits)}{unit}")
+        lines.append(f"  {value.quantity.name} = {value.digits(digits)}{_unit(value.quantity.units)}")
         if routes:
             agreed = ", ".join(f"{route} {count:.1f} digits" for route, count in _agreed(value).items())
             lines.append(f"    agreed by {agreed}" if agreed else "    no other route reaches it")
     return "\n".join(lines)
+
+
+def _unit(units: str) -> str:
+    """As it is told after a number; of a pure number none is."""
+    return "" if units in ("", "1") else f" {units}"
 
 
 def _constants(found: list[Certified]) -> tuple[Constant, ...]:
