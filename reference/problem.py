@@ -370,9 +370,15 @@ class Problem:
         decided = len(arguments) * len(self.row(row).quantities)
         return lost - SPARED_BITS + decided.bit_length()
 
-    def more_bits(self, row: str, bits: int) -> int:
-        """What to take after so many working bits, which were not enough: twice as many, of a flow less."""
-        return 2 * bits if self.has_closed_form else proven_flow.more_bits(self.equation_of(row), bits)
+    def more_bits(self, row: str, arguments: Sequence[Any], guarded: int, bits: int) -> int:
+        """What to take after so many working bits, which were not enough, for ``guarded`` beside what is lost.
+
+        Twice as many; of a flow what is asked now that more is known of what it loses, or the next more.
+        """
+        if self.has_closed_form:
+            return 2 * bits
+        again = guarded + self.row_bits(row, arguments)
+        return again if again > bits else proven_flow.more_bits(self.equation_of(row), bits)
 
     def foresee(self, row: str, arguments: Sequence[Any]) -> None:
         """Learn what a proof of these will lose, before many are asked for; only speed depends on it."""

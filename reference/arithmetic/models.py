@@ -36,7 +36,6 @@ __all__ = [
     "bound",
     "rounded",
     "supremum",
-    "total",
 ]
 
 BOUND_BITS = 64

@@ -58,7 +58,8 @@ class RigidBody(FlowProblem):
     def known_state(self, t: Any) -> Sequence[Any]:
         """(a cn, b sn, c dn) of w t (L. D. Landau and E. M. Lifshitz, Mechanics, 1976, section 37)."""
         first, _, third = self.start_in(MPMATH)
-        b1, b2, b3 = mp.mpf(1) / 2, mp.mpf(-1), mp.mpf(1) / 2  # of y2 y3, y3 y1 and y1 y2
+        a1, a2, a3 = (1 / moment for moment in self.parameters_in(MPMATH).values())
+        b1, b2, b3 = a3 - a2, a1 - a3, a2 - a1
         u, square = mp.sqrt(-b1 * b2) * third * t, b3 * first**2 / (b1 * third**2)
         cn, sn, dn = (mp.ellipfun(kind, u, m=square) for kind in ("cn", "sn", "dn"))
         return first * cn, -first * mp.sqrt(-b2 / b1) * sn, third * dn

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from flint import arb
@@ -50,16 +51,8 @@ def decide(
     exactly = [problem.exact_row(row, argument) for argument in arguments]
     rational = [None if known is None else _wanted(known, component) for known in exactly]
     pending = [i for i, known in enumerate(rational) if known is None or None in known]
-
-    def asked() -> int:
-        return bits + GUARD_BITS + problem.row_bits(row, [arguments[i] for i in pending])
-
-    def more(found: int) -> int:
-        """After what was not enough: what is asked now that more is known of what is lost, or more than that."""
-        again = asked()
-        return again if again > found else problem.more_bits(row, found)
-
-    start = asked()
+    wanted, guarded = [arguments[i] for i in pending], bits + GUARD_BITS
+    start = guarded + problem.row_bits(row, wanted)
     bound = min(problem.max_bits, problem.row(row).max_bits)
 
     def answer(value: Any) -> Answer | None:
@@ -83,7 +76,11 @@ def decide(
     rest = [i for i in pending if i not in answers]
     name = row if component is None else problem.row(row).quantities[component].name
     what = f"{name} of {problem!r}"
-    proven = ziv(enclose, answer, len(rest), start, what, bound, more) if rest else []
+    proven = (
+        ziv(enclose, answer, len(rest), start, what, bound, partial(problem.more_bits, row, wanted, guarded))
+        if rest
+        else []
+    )
     answers.update(zip(rest, proven, strict=True))
     return [
         answers[i] if known is None or i in answers else [of_exact(value) for value in known if value is not None]
