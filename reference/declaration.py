@@ -32,6 +32,7 @@ __all__ = [
     "Solution",
     "StateSpace",
     "Trial",
+    "WorkingBits",
 ]
 
 
@@ -245,6 +246,30 @@ class Equation(Protocol):
     def derivative(self, m: Any, t: Any, y: Sequence[Any], p: dict[str, Any]) -> tuple[Any, ...]: ...
 
 
+class WorkingBits(Protocol):
+    """How many working bits the rows of a problem take; only speed depends on it."""
+
+    def bits(self, row: str, arguments: Sequence[Any]) -> int:
+        """Those that are expected to be lost, beyond what guards every decision."""
+        ...
+
+    def more(self, missing: int, bits: int) -> int:
+        """What to take after so many, by which so many are missing to the guarded accuracy of a value."""
+        ...
+
+    def foresee(self, row: str, arguments: Sequence[Any], bits: int) -> None:
+        """Learn what a proof of these loses, before it is made in so many bits."""
+        ...
+
+    def prepare(self, asked: Sequence[tuple[str, Sequence[Any]]], bits: int) -> None:
+        """Make ready for many rows with their arguments, of which values are wanted to so many bits."""
+        ...
+
+    def of_route(self, row: str, arguments: Sequence[Any], bits: int) -> int:
+        """Those of a route that proves nothing and is held to so many."""
+        ...
+
+
 class Declared(Protocol):
     """What is asked of a problem to prove its rows and to hold the routes against each other."""
 
@@ -257,8 +282,8 @@ class Declared(Protocol):
     def row(self, name: str) -> Row: ...
     def arguments(self, row: str, arguments: Sequence[Any]) -> list[Any]: ...
     def exact_row(self, row: str, argument: Any) -> tuple[Fraction | None, ...] | None: ...
-    def row_bits(self, row: str, arguments: Sequence[Any]) -> int: ...
-    def more_bits(self, row: str, arguments: Sequence[Any], guarded: int, bits: int) -> int: ...
+    @property
+    def working(self) -> WorkingBits: ...
     def enclosure_form(self) -> Solution: ...
     def chart(self, row: str, count: int, bits: int) -> Solution | None: ...
     def by_route(

@@ -42,6 +42,7 @@ from reference.routes.proven_flow import LEAST_BITS, FlowSolution, lost, see
 from reference.routes.sensitivity import Sensitivity, Variations, known_sensitivity
 from reference.routes.taylor import Along, Passages
 from reference.routes.transition import TransitionSolution, frobenius
+from reference.routes.working_bits import FlowReading
 from reference.row_domains import INDEX, TIME, Whole
 
 if TYPE_CHECKING:
@@ -72,12 +73,16 @@ CONDITIONED = 8
 """A state of more components has none: it would take the square of their number."""
 MULTIPLE = Whole("multiple", "multiple")
 """Of the end, which is an exact decimal."""
+TRANSITION_BITS = 12
+"""What condition numbers lose beside what the state does: bits of products of matrices."""
 COUNT_BITS = 1 << 12
 """A crossing that so many bits do not tell from the end of the time in which they are counted is at that end."""
 VARIED = Fraction(1, 4)
 """Many condition numbers are held against variations up to this part of a march."""
 KNOWN_BITS = 100
 """So many more bits than it is held against does the state take that mathematics knows."""
+READ_BITS = 20
+"""And the proven state of which invariants are read."""
 START_BITS = 4096
 """An irrational start is told to so many bits where a number is asked for: beyond those of any format."""
 AROUND = Fraction(1, 16)
@@ -238,28 +243,26 @@ class FlowProblem(Problem):
         """The proven flow, with its crossings and its derivatives."""
         return _FlowRows(self)
 
-    def row_bits(self, row: str, arguments: Sequence[Any]) -> int:
-        times = [argument for argument in arguments if isinstance(argument, Fraction)] or [self.end]
-        lost_too = (
-            lost(self, max(times, key=abs)) if row == CONDITION else 0
-        )  # what the state loses moves df/dy as well
-        return super().row_bits(row, times) + 3 * lost_too // 2
+    def flow_reading(self, row: str, arguments: Sequence[Any]) -> FlowReading:
+        """As ever; ends at their times, crossings and invariants up to the end, derivatives of a flow of their own."""
+        if row in {END, CONSERVED}:
+            multiples = arguments if row == END else [1]
+            return super().flow_reading("state", [multiple * self.end for multiple in multiples])
+        if row in {CONDITION, CROSSINGS}:
+            last = max((time for time in arguments if isinstance(time, Fraction)), key=abs, default=self.end)
+            return FlowReading(self, [(last, ())], TRANSITION_BITS if row == CONDITION else 0)
+        found = super().flow_reading(row, arguments)
+        if not row.startswith(SENSITIVITY):
+            return found
+        size = len(self.state_names)
+        slopes = [(time, tuple(size + place for place in places)) for time, places in found.times]
+        return FlowReading(self.sensitivity(row.removeprefix(SENSITIVITY)), slopes)
 
     def within_taylor(self, row: str, arguments: Sequence[Any]) -> bool:
         """As ever; of many condition numbers those of the first times, since variations take longer than the proof."""
         if row == CONDITION and len(arguments) > 1 and max(arguments) > VARIED * self.end:
             return False
         return super().within_taylor(row, arguments)
-
-    def foresee(self, row: str, arguments: Sequence[Any]) -> None:
-        """By a flow of few bits, of the state."""
-        del row
-        times = [argument for argument in arguments if isinstance(argument, Fraction)] or [self.end]
-        see(self, max(times, key=abs), LEAST_BITS)
-
-    def equation_of(self, row: str) -> Any:
-        """Its own, with derivatives where the row is of these."""
-        return self.sensitivity(row.removeprefix(SENSITIVITY)) if row.startswith(SENSITIVITY) else self
 
     @property
     def start(self) -> tuple[Fraction, ...]:
@@ -312,7 +315,7 @@ class _FlowRows(FlowSolution):
         if row == CONDITION:
             return [(frobenius(BALL, values),) for values in TransitionSolution(problem).rows("state", arguments)]
         if row.startswith(SENSITIVITY):
-            flow, size = FlowSolution(problem.equation_of(row)), len(problem.state_names)
+            flow, size = FlowSolution(problem.sensitivity(row.removeprefix(SENSITIVITY))), len(problem.state_names)
             return [values[size:] for values in flow.rows("state", arguments)]
         return super().rows(row, arguments)
 
@@ -332,8 +335,9 @@ class _Known:
         if is_known(problem.kind):
             state = problem.known_state(MPMATH.number(problem.end))
             return [(problem.conserved(index, MPMATH, state),) for index in arguments]
-        see(problem, problem.end, self._bits)
-        with ctx.workprec(self._bits + lost(problem, problem.end)):
+        read = self._bits - KNOWN_BITS + READ_BITS
+        see(problem, problem.end, read)
+        with ctx.workprec(read + lost(problem, problem.end)):
             (balls,) = FlowSolution(problem).rows("state", [problem.end])
             found = [problem.conserved(index, BALL, balls).mid() for index in arguments]
         return [(mp.ldexp(mp.mpf(int(mantissa)), int(e)),) for mantissa, e in (one.man_exp() for one in found)]

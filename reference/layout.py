@@ -255,10 +255,15 @@ class Group:
         """The shape that belongs to these dimensions."""
         return tuple(self.inputs[name].size for name in dims)
 
+    @property
+    def elements(self) -> int:
+        """How many problems there are."""
+        first = self.layout.first
+        return self.inputs[first[0].name].size if first else 1
+
     def blocks(self) -> Iterator[Block]:
         """The work of this group in the order of storage."""
-        first = self.layout.first
-        for element in range(self.inputs[first[0].name].size if first else 1):
+        for element in range(self.elements):
             instance = {axis.name: self.inputs[axis.name][element].item() for axis in self.layout.instances}
             for row in self.layout.rows:
                 for start, values in self._stretches(row):

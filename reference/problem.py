@@ -19,6 +19,7 @@ from reference.certified import Certified
 from reference.names import unknown
 from reference.once import cached_property
 from reference.routes import enclosure, proven_flow, quadrature, taylor
+from reference.routes.working_bits import FlowReading, OfClosedForm, OfFlow, latest
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
@@ -27,7 +28,7 @@ if TYPE_CHECKING:
 
     from reference.arithmetic.protocols import Arithmetic
     from reference.constants import Constant
-    from reference.declaration import ClosedForm, Form, Invariant, Row, Solution, StateSpace, Trial
+    from reference.declaration import ClosedForm, Form, Invariant, Row, Solution, StateSpace, Trial, WorkingBits
     from reference.orbits import Orbits
     from reference.row_domains import Domain
     from reference.state_bounds import StateBounds
@@ -40,12 +41,6 @@ APART = Fraction(1, 1 << 36)
 """By such a part a neighbour begins elsewhere: far enough for other roundings, too near for other truncation errors."""
 SEEN, STATES = 10, 16
 """Of a motion without a period so many turns or e-foldings of its start, and so many states, are looked at."""
-SPARED_BITS = 30
-"""Bits that a flow may lose of those that guard every decision; the more of these, the fewer."""
-LEAST_LOST = 16
-"""Bits that any flow loses, about."""
-SEEN_BITS = 60
-"""So many more bits than it is held against does a flow take that is held against another route."""
 ROUTE_BITS = 8192
 """No route but the enclosure serves what needs more working precision than this."""
 
@@ -350,38 +345,24 @@ class Problem:
         found = known(lambda: surd(_read_at_start(self, value, SURD)).rational) if found is None else found
         return Fraction(found) if isinstance(found, (int, Fraction)) else None
 
-    def equation_of(self, row: str) -> Any:
-        """The equation of which the flow proves a row."""
-        del row
-        return self
-
     def working_bits(self, arguments: Sequence[Any]) -> int:
         """Bits that the solution in balls is expected to lose at these arguments; only speed depends on it.
 
         Of itself those of the latest time.
         """
-        return int(_latest(arguments)).bit_length() if self.has_closed_form else self.row_bits("state", arguments)
+        return int(latest(arguments)).bit_length() if self.has_closed_form else self.working.bits("state", arguments)
 
-    def row_bits(self, row: str, arguments: Sequence[Any]) -> int:
-        """The ``working_bits`` of a row: of a flow what it is seen to lose until then, beyond what it may."""
-        if self.has_closed_form:
-            return self.working_bits(arguments)
-        lost = max(proven_flow.lost(self.equation_of(row), _latest(arguments)), LEAST_LOST)
-        decided = len(arguments) * len(self.row(row).quantities)
-        return lost - SPARED_BITS + decided.bit_length()
+    @property
+    def working(self) -> WorkingBits:
+        """How many working bits its rows take."""
+        return OfClosedForm(self) if self.has_closed_form else OfFlow(self)
 
-    def more_bits(self, row: str, arguments: Sequence[Any], guarded: int, bits: int) -> int:
-        """What to take after so many working bits, which were not enough, for ``guarded`` beside what is lost.
-
-        Twice as many; of a flow what is asked now that more is known of what it loses, or the next more.
-        """
-        if self.has_closed_form:
-            return 2 * bits
-        again = guarded + self.row_bits(row, arguments)
-        return again if again > bits else proven_flow.more_bits(self.equation_of(row), bits)
-
-    def foresee(self, row: str, arguments: Sequence[Any]) -> None:
-        """Learn what a proof of these will lose, before many are asked for; only speed depends on it."""
+    def flow_reading(self, row: str, arguments: Sequence[Any]) -> FlowReading:
+        """Where a row is read of a flow: at the times among its arguments, what is not exactly rational there."""
+        known = [(time, self.exact_row(row, time) or ()) for time in arguments if isinstance(time, Fraction)]
+        everywhere = range(len(self.state_names))
+        times = [(time, tuple(i for i in everywhere if not exact or exact[i] is None)) for time, exact in known]
+        return FlowReading(self, [(time, places) for time, places in times if places])
 
     def by_route(
         self, route: str, row: str, arguments: Sequence[Any], digits: int
@@ -392,12 +373,10 @@ class Problem:
             ValueError: an argument is outside of the row's domain.
         """
         arguments = self.arguments(row, arguments)
-        if not self.has_closed_form:
-            proven_flow.see(self.equation_of(row), _latest(arguments), int(digits * 3.33) + SEEN_BITS)
-        bits = int(digits * 3.33) + self._route_bits(row, arguments)
-        if route in dict(self.row(row).lacks) or bits > ROUTE_BITS:
+        if route in dict(self.row(row).lacks) or (route == "quadrature" and not self.has_closed_form):
             return None
-        if route == "quadrature" and not self.has_closed_form:
+        bits = self.working.of_route(row, arguments, int(digits * 3.33))
+        if bits > ROUTE_BITS:
             return None
         if route == "quadrature":
             return quadrature.rows(self.quadrature_form, row, arguments, bits)
@@ -405,12 +384,6 @@ class Problem:
             return None
         with mp.workprec(bits):
             return self.taylor_form(bits).rows(row, arguments)
-
-    def _route_bits(self, row: str, arguments: Sequence[Any]) -> int:
-        """Bits of a route that proves nothing, beside those that it is held to."""
-        if self.has_closed_form:
-            return 2 * self.row_bits(row, arguments) + 30
-        return max(30, self.row_bits(row, arguments) + SPARED_BITS + 20)
 
     def row(self, name: str) -> Row:
         """The row of this name.
@@ -617,11 +590,6 @@ class HamiltonianProblem(Problem):
         size = len(positions)
         momenta = [m.number(value) for value in self.start[size:]]
         return tuple(-slope for slope in self._slopes(m, t, positions, momenta, p)[:size])
-
-
-def _latest(arguments: Sequence[Any]) -> Fraction:
-    """The time among them that is farthest from the start."""
-    return max((abs(t) for t in arguments if isinstance(t, Fraction)), default=Fraction(0))
 
 
 def _read_at_start(problem: Problem, value: str, m: Any) -> Any:

@@ -205,12 +205,13 @@ def ziv(
     bits: int,
     what: str,
     max_bits: int = MAX_BITS,
-    more: Callable[[int], int] = lambda bits: 2 * bits,
+    more: Callable[[int, int], int] = lambda bits, _least: 2 * bits,
 ) -> list[list[Answer]]:
     """Ziv's loop over ``count`` rows of balls: raise the precision until every ball of every row is decided.
 
     ``enclose(rows)`` returns the balls of the given rows at the working precision in force; ``decide(ball)`` the one
-    answer of all its points, or None; ``more(bits)`` the precision after one that was not enough.
+    answer of all its points, or None; ``more(bits, least)`` the precision after one that was not enough, by which the
+    undecided balls have ``least`` bits of relative accuracy.
 
     Raises:
         WorkBoundError: a row is undecided at ``max_bits`` bits.
@@ -223,11 +224,14 @@ def ziv(
                 f"{what} could not be decided with {max_bits} bits of working precision, the limit; "
                 "fewer digits, or inputs less extreme, are accepted."
             )
+        least = bits
         with ctx.workprec(bits):
             for row, balls in zip(pending, enclose(pending), strict=True):
-                decided = [answer for ball in balls if (answer := decide(ball)) is not None]
-                if len(decided) == len(balls):
-                    answers[row] = decided
+                decided = [(ball, decide(ball)) for ball in balls]
+                found = [answer for _, answer in decided if answer is not None]
+                if len(found) == len(balls):
+                    answers[row] = found
+                least = min([least, *(ball.rel_accuracy_bits() for ball, answer in decided if answer is None)])
         pending = [row for row in pending if row not in answers]
-        bits = more(bits)
+        bits = more(bits, least)
     return [answers[row] for row in range(count)]

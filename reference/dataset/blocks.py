@@ -22,14 +22,14 @@ from reference.arithmetic.limbs import to_limbs
 from reference.command.marked import BusyError, PlaceError, abandoned, required
 from reference.dataset.claims import DECIMAL_DIGITS
 from reference.routes import enclosure
-from reference.routes.agreement import ROUTES, agreement
+from reference.routes.agreement import FLOW_BITS, ROUTES, agreement
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Sequence
     from pathlib import Path
 
     from reference.command.marked import Marked
-    from reference.layout import Block, Layout
+    from reference.layout import Block, Group, Layout
 
 __all__ = [
     "LIMBS",
@@ -42,9 +42,10 @@ __all__ = [
     "compute",
     "compute_all",
     "decimals",
-    "most_first",
+    "longest_first",
     "partial",
     "place_of",
+    "prepare",
     "prove",
     "require_portable",
     "together",
@@ -200,18 +201,23 @@ def together(blocks: Iterable[Block]) -> Iterator[tuple[Block, ...]]:
             yield from ((block,) for block in several)
 
 
-def most_first(blocks: Sequence[Block]) -> list[int]:
-    """The places of blocks of a task, those first that take most working bits: the flow that proves them serves all."""
-    for block in blocks:
-        block.problem.foresee(block.row.name, block.arguments)
-    bits = [block.problem.row_bits(block.row.name, block.arguments) for block in blocks]
-    return sorted(range(len(blocks)), key=bits.__getitem__, reverse=True)
+def longest_first(groups: Iterable[Group]) -> Iterator[Block]:
+    """The blocks of groups, first of those that are of a flow: what is begun last is to end soon."""
+    for group in sorted(groups, key=lambda group: not group.layout.inputs):
+        yield from group.blocks()
+
+
+def prepare(blocks: Sequence[Block], bits: int) -> None:
+    """Where the blocks of a task are of one flow, prove it once for all of them, at so many bits of each value."""
+    if blocks[0].layout.inputs:
+        asked = [(block.row.name, block.arguments) for block in blocks]
+        blocks[0].problem.working.prepare(asked, bits + enclosure.GUARD_BITS)
 
 
 def compute_all(blocks: tuple[Block, ...]) -> list[Result]:
     """``compute`` of each."""
-    found = {place: compute(blocks[place]) for place in most_first(blocks)}
-    return [found[place] for place in range(len(blocks))]
+    prepare(blocks, max(START_BITS, FLOW_BITS))
+    return [compute(block) for block in blocks]
 
 
 def compute(block: Block) -> Result:

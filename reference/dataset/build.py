@@ -21,6 +21,7 @@ from reference.dataset.blocks import (
     Result,
     compute,
     compute_all,
+    longest_first,
     partial,
     place_of,
     require_portable,
@@ -150,17 +151,16 @@ def _ensure_space(plan: Plan, target: Path) -> None:
 
 
 def _prove(plan: Plan, finished: Partial, jobs: int, executor: str, progress: Callable[[int, int], None]) -> None:
-    """Prove every block that is not finished yet."""
-    blocks = deque(plan.blocks())
-    total = len(blocks)
-    pending = deque(block for block in blocks if not finished.has(block.key))
-    blocks.clear()
-    done = total - len(pending)
+    """Prove every task of which a block is not finished yet, as a whole: what it shares does not depend on the rest."""
+    tasks = deque(together(longest_first(plan.groups)))
+    total = sum(map(len, tasks))
+    tasks = deque(task for task in tasks if not all(finished.has(block.key) for block in task))
+    done = total - sum(map(len, tasks))
     progress(done, total)
-    workers = max(1, min(jobs, len(pending))) if jobs > 0 else jobs
-    tasks = together(pending.popleft() for _ in range(total - done))
+    workers = max(1, min(jobs, len(tasks))) if jobs > 0 else jobs
+    begun = (tasks.popleft() for _ in range(len(tasks)))
     with opened(executor, workers) as pool:
-        for several, found in results(pool, compute_all, tasks, workers):
+        for several, found in results(pool, compute_all, begun, workers):
             for block, result in zip(several, found, strict=True):
                 finished.put(block.key, result.dumped())
                 done += 1

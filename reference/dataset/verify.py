@@ -1,9 +1,9 @@
-"""The proofs again: every limb against balls that start at twice the precision, every decimal, the routes once more."""
+"""The proofs again: every limb against balls of another precision, every decimal, the routes once more."""
 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -11,7 +11,17 @@ import numpy as np
 from reference.arithmetic.arrays import unsigned_zeros
 from reference.arithmetic.binary64 import shortest
 from reference.command.executors import opened, results
-from reference.dataset.blocks import LIMBS, START_BITS, compare, decimals, most_first, prove, require_portable, together
+from reference.dataset.blocks import (
+    LIMBS,
+    START_BITS,
+    compare,
+    decimals,
+    longest_first,
+    prepare,
+    prove,
+    require_portable,
+    together,
+)
 from reference.dataset.claims import decimal_fault, measurement_fault
 from reference.dataset.errors import DatasetError
 from reference.dataset.reader import load
@@ -28,8 +38,13 @@ if TYPE_CHECKING:
     from reference.family import Family
     from reference.layout import Block
 
+    Digits = dict[str, list[float]] | str
+    """For each route the digits to which it agrees on each quantity, or the sentence of a disagreement."""
+
 __all__ = ["Proof", "differs", "verify"]
 
+AGAIN_BITS = {True: 2 * START_BITS, False: START_BITS + 53}
+"""Balls start at so many bits: of closed forms at twice those of the build, of flows at a limb more, in other steps."""
 TAYLOR_ELEMENTS = 6
 """Arguments a row that the Taylor route is asked for again, from the first."""
 
@@ -95,18 +110,20 @@ def verify(
     require_portable([group.layout for group in groups], executor, jobs)
     total = sum(1 for group in groups for _ in group.blocks())
     with opened(executor, jobs) as pool:
-        blocks = (block for group in groups for block in group.blocks())
         done = 0
-        for several, found in results(pool, _again, together(blocks), jobs):
-            for block, (limbs, again) in zip(several, found, strict=True):
+        agreed: list[tuple[Block, Digits]] = []
+        for several, found in results(pool, _again, together(_sampled(groups)), jobs):
+            for block, (limbs, spelled, routes) in zip(several, found, strict=True):
                 _compare(dataset, block, limbs, proofs)
-                for quantity, text in zip(block.row.quantities, again, strict=False):
+                for quantity, text in zip(block.row.quantities, spelled, strict=False):
                     proofs[block.layout.path, quantity.name].decimals[block.element] = text
+                if routes is not None:
+                    agreed.append((block, routes))
             done += len(several)
             if progress:
                 progress(done, total)
-        for block, digits in results(pool, _routes, _sample(groups), jobs):
-            _note_routes(block, digits, proofs)
+    for block, digits in agreed:
+        _note_routes(block, digits, proofs)
     for proof in proofs.values():
         said, texts = dataset[proof.name], [proof.decimals[element] for element in sorted(proof.decimals)]
         proof.first = (
@@ -117,10 +134,23 @@ def verify(
     return list(proofs.values())
 
 
-def _again(blocks: tuple[Block, ...]) -> list[tuple[np.ndarray, tuple[str, ...]]]:
-    """Of each block the proven limbs from twice the precision of the build, and the proven decimals."""
-    found = {place: (prove(blocks[place], 2 * START_BITS), decimals(blocks[place])) for place in most_first(blocks)}
-    return [found[place] for place in range(len(blocks))]
+def _sampled(groups: Sequence[Group]) -> Iterator[Block]:
+    """The blocks of groups: of each row the first one of the middle instance is to be held against the routes again, by
+    the arguments that the Taylor route reaches quickly, others by none.
+    """
+    middle = {group.layout.path: group.elements // 2 for group in groups}
+    for block in longest_first(groups):
+        asked = block.element == middle[block.layout.path] and block.start == 0
+        yield replace(block, taylor_elements=TAYLOR_ELEMENTS if asked else 0)
+
+
+def _again(blocks: tuple[Block, ...]) -> list[tuple[np.ndarray, tuple[str, ...], Digits | None]]:
+    """Of each block the limbs, proven in more bits than those of the build, the decimals, and the routes' digits."""
+    bits = AGAIN_BITS[blocks[0].problem.has_closed_form]
+    prepare(blocks, bits)
+    return [
+        (prove(block, bits), decimals(block), _routes(block) if block.taylor_elements else None) for block in blocks
+    ]
 
 
 def _group(dataset: Dataset, path: str) -> Group:
@@ -172,16 +202,7 @@ def _spelled(limbs: np.ndarray) -> str:
     return f"[{', '.join(map(shortest, limbs.tolist()))}]"
 
 
-def _sample(groups: list[Group]) -> Iterator[Block]:
-    """For each row of each group the first stretch of the middle instance, short enough to integrate quickly."""
-    for group in groups:
-        short = Group(group.layout, group.parameters, group.inputs, TAYLOR_ELEMENTS)
-        blocks = list(short.blocks())
-        middle = blocks[len(blocks) // 2].element
-        yield from (block for block in blocks if block.element == middle and block.start == 0)
-
-
-def _routes(block: Block) -> dict[str, list[float]] | str:
+def _routes(block: Block) -> Digits:
     """For each route the digits to which it agrees on each quantity, or the sentence of a disagreement."""
     try:
         found = {route: compare(block, route) for route in ROUTES}
@@ -190,7 +211,7 @@ def _routes(block: Block) -> dict[str, list[float]] | str:
     return {route: digits for route, (digits, checked) in found.items() if checked[0]}
 
 
-def _note_routes(block: Block, digits: dict[str, list[float]] | str, proofs: dict[tuple[str, str], Proof]) -> None:
+def _note_routes(block: Block, digits: Digits, proofs: dict[tuple[str, str], Proof]) -> None:
     for i, quantity in enumerate(block.row.quantities):
         proof = proofs[block.layout.path, quantity.name]
         if isinstance(digits, str):

@@ -22,11 +22,13 @@ if TYPE_CHECKING:
 
     from reference.declaration import Declared, Row
 
-__all__ = ["REQUIRED_DIGITS", "ROUTES", "ROUTE_DIGITS", "Agreement", "DisagreementError", "agreement"]
+__all__ = ["FLOW_BITS", "REQUIRED_DIGITS", "ROUTES", "ROUTE_DIGITS", "Agreement", "DisagreementError", "agreement"]
 
 REQUIRED_DIGITS = 45
 ROUTE_DIGITS, FLOW_DIGITS = 60, 50
 """To so many digits routes are held against the enclosure, and where that is a flow."""
+ROUTE_BITS, FLOW_BITS = 219, 174
+"""And to so many bits is the enclosure known there."""
 FAR = Fraction(10) ** 300
 """A gap that is larger is as bad."""
 ROUTES = ("taylor", "quadrature")
@@ -55,11 +57,11 @@ def agreement(problem: Declared, row: str, arguments: Sequence[Any], route: str)
     Raises:
         DisagreementError: fewer than REQUIRED_DIGITS digits agree somewhere.
     """
-    held = ROUTE_DIGITS if problem.has_closed_form else FLOW_DIGITS
+    held, bits = (ROUTE_DIGITS, ROUTE_BITS) if problem.has_closed_form else (FLOW_DIGITS, FLOW_BITS)
     found = problem.by_route(route, row, arguments, held)
     if found is None:
         return None
-    proven = enclosure.balls(problem, row, arguments, int(held * 3.33) + 20)
+    proven = enclosure.balls(problem, row, arguments, bits)
     asked, results = problem.row(row), []
     for i, quantity in enumerate(asked.quantities):
         pairs = [(truth[i], value[i]) for truth, value in zip(proven, found, strict=True)]

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from functools import partial
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from flint import arb
@@ -52,11 +51,15 @@ def decide(
     rational = [None if known is None else _wanted(known, component) for known in exactly]
     pending = [i for i, known in enumerate(rational) if known is None or None in known]
     wanted, guarded = [arguments[i] for i in pending], bits + GUARD_BITS
-    start = guarded + problem.row_bits(row, wanted)
+    problem.working.foresee(row, wanted, guarded)
+    start = guarded + problem.working.bits(row, wanted)
     bound = min(problem.max_bits, problem.row(row).max_bits)
 
     def answer(value: Any) -> Answer | None:
         return of_ball(value) if isinstance(value, arb) else of_exact(value)
+
+    def more(tried: int, least: int) -> int:
+        return problem.working.more(guarded - least, tried)
 
     def by(form: Solution, indices: Sequence[int]) -> list[Sequence[Any]]:
         found = form.rows(row, [arguments[i] for i in indices])
@@ -76,11 +79,7 @@ def decide(
     rest = [i for i in pending if i not in answers]
     name = row if component is None else problem.row(row).quantities[component].name
     what = f"{name} of {problem!r}"
-    proven = (
-        ziv(enclose, answer, len(rest), start, what, bound, partial(problem.more_bits, row, wanted, guarded))
-        if rest
-        else []
-    )
+    proven = ziv(enclose, answer, len(rest), start, what, bound, more) if rest else []
     answers.update(zip(rest, proven, strict=True))
     return [
         answers[i] if known is None or i in answers else [of_exact(value) for value in known if value is not None]

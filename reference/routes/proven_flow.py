@@ -63,10 +63,11 @@ __all__ = [
     "Piece",
     "ProvenFlow",
     "lost",
-    "more_bits",
+    "prove",
     "proven",
     "put_off",
     "see",
+    "told",
 ]
 
 STEPS = 1 << 15
@@ -87,6 +88,10 @@ SPARE = 10
 """A step whose own error comes to more than 2^SPARE roundings is halved, as long as that makes it smaller."""
 GAIN = 8
 """Bits that halving a step has to gain."""
+TELLING = 32
+"""After so many steps what is lost in a flow tells what will be."""
+SMALLER = 16
+"""What a component of which not a bit is known is taken to lack beyond all bits of its flow."""
 SIDES = 10
 """Up to so many components a parallelepiped of errors is carried: it costs products of matrices in each step."""
 
@@ -180,9 +185,17 @@ class ProvenFlow:
     def lost(self, sign: int) -> tuple[Fraction, float]:
         """How far one side is proven, and how many bits are lost there, of the largest component."""
         side = self._side(sign)
-        largest = max((float(abs(value)) for value in side.middle), default=0.0)
-        error = max((log2(value) for value in side.errors.sides if value != 0), default=-math.inf)
-        return abs(side.reached), max(0.0, error + self.bits - math.log2(largest or 1.0))
+        return abs(side.reached), self._lost(side.middle, side.errors.sides)
+
+    def lost_at(self, time: Fraction) -> float:
+        """How many bits are lost at a time that is proven, of the largest component."""
+        state = self.at(time)
+        return self._lost([ball.mid() for ball in state], [ball.rad() for ball in state])
+
+    def _lost(self, state: Sequence[arb], errors: Sequence[arb]) -> float:
+        largest = max((log2(value) for value in state if value != 0), default=0.0)
+        error = max((log2(value) for value in errors if value != 0), default=-math.inf)
+        return max(0.0, error + self.bits - largest)
 
 
 class _Side:
@@ -536,11 +549,6 @@ def proven(equation: Any, bits: int, time: Fraction = Fraction(0)) -> ProvenFlow
     return flows[shared]
 
 
-def more_bits(equation: Any, bits: int) -> int:
-    """What to take after a flow of so many bits: those of the next one that is there, or half as many more."""
-    return min((known for known in _flows(equation) if known > bits + BITS_APART), default=bits + bits // 2)
-
-
 @lru_cache(maxsize=KEPT)
 def _flows(equation: Any) -> dict[int, ProvenFlow]:
     """The flows of an equation that are kept, by their bits."""
@@ -556,31 +564,67 @@ def _horizons(asked: Any) -> dict[int, Fraction]:
 
 
 @lru_cache(maxsize=1024)
-def _losses(equation: Any) -> dict[int, tuple[Fraction, float]]:
-    """How far each side of an equation was proven, and how many bits were lost there."""
+def _losses(equation: Any) -> dict[int, _Loss]:
+    """What each side of an equation lost, as far as it was proven."""
     del equation
     return {}
 
 
+@dataclass(frozen=True)
+class _Loss:
+    """Bits that a side of a flow lost, of the largest component, as far as it was proven and half way."""
+
+    reached: Fraction
+    steps: int
+    bits: float
+    half: float
+
+    def at(self, time: Fraction) -> float:
+        """Those lost at a time, and beyond what was proven as they grew in its second half, were these steps many."""
+        further = max(0.0, float(abs(time) / self.reached) - 1) if self.steps >= TELLING else 0.0
+        return self.bits + 2 * further * max(0.0, self.bits - self.half)
+
+
 def lost(equation: Any, time: Fraction) -> int:
     """Bits that the proof loses up to a time, about, told by what it lost so far; 0 where it has not begun."""
-    reached, bits = _losses(equation).get(-1 if time < 0 else 1, (Fraction(0), 0.0))
-    return math.ceil(bits * max(1.0, float(abs(time) / reached))) if reached else 0
+    known = _losses(equation).get(-1 if time < 0 else 1)
+    return math.ceil(known.at(time)) if known else 0
+
+
+def told(equation: Any, time: Fraction, components: Sequence[int]) -> int | None:
+    """Bits that these components, by their places, lack at a time, by the best flow that is kept and proven so far.
+
+    None where there is none.  One that is small lacks more than are lost.
+    """
+    flows = [flow for flow in _flows(equation).values() if flow.reaches(time)]
+    if not flows or not components:
+        return None
+    flow = max(flows, key=lambda flow: flow.bits)
+    state = flow.at(time)
+    accurate = min(state[place].rel_accuracy_bits() for place in components)
+    lacking: int = flow.bits - (accurate if accurate > 0 else max(accurate, -SMALLER) - SMALLER)
+    return lacking
 
 
 def see(equation: Any, time: Fraction, bits: int) -> None:
     """Prove a flow to a time in so many bits, as far as these reach, where it was not: what it loses is then known."""
     sign = -1 if time < 0 else 1
-    if _losses(equation).get(sign, (Fraction(0), 0.0))[0] < abs(time):
-        flow = proven(equation, bits, time)
-        with suppress(WorkBoundError):
-            flow.at(time)
-        _note(flow, sign)
+    known = _losses(equation).get(sign)
+    if known is None or known.reached < abs(time):
+        prove(equation, time, bits)
+
+
+def prove(equation: Any, time: Fraction, bits: int) -> None:
+    """Prove a flow to a time in so many bits, as far as these reach: what is asked of it later is there then."""
+    flow = proven(equation, bits, time)
+    with suppress(WorkBoundError):
+        flow.at(time)
+    _note(flow, -1 if time < 0 else 1)
 
 
 def _note(flow: ProvenFlow, sign: int) -> None:
     reached, bits = flow.lost(sign)
     equation: Any = flow.equation
     known = _losses(equation)
-    if reached and reached >= known.get(sign, (Fraction(0), 0.0))[0]:
-        known[sign] = reached, bits
+    if reached and (sign not in known or reached >= known[sign].reached):
+        known[sign] = _Loss(reached, len(flow.pieces(sign)), bits, flow.lost_at(sign * reached / 2))

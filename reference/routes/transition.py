@@ -47,7 +47,7 @@ class Transition:
     def __init__(self, flow: ProvenFlow, sign: int) -> None:
         self._flow, self._sign = flow, sign
         _, lost = flow.lost(sign)
-        bits = max(flow.bits - int(2 * lost), min(flow.bits, LEAST_BITS))  # what is lost of them need not be known
+        bits = max(flow.bits - int(lost), min(flow.bits, LEAST_BITS))  # what is lost of them need not be known
         self._variation = Variation(flow.equation, bits)
         self._carried: list[_Carried] = []
         size = len(flow.equation.state_names)

@@ -15,13 +15,15 @@ from plans import TINY, leftovers
 import reference
 from reference.dataset import build as building
 from reference.dataset import catalogue
-from reference.dataset.blocks import spread
+from reference.dataset.blocks import compute_all, spread
 from reference.dataset.build import build
 from reference.dataset.checksums import note_checksum
 from reference.dataset.plan import Plan
 from reference.dataset.reader import load
 from reference.layout import BLOCK_LENGTH, Group
+from reference.problems.families import FAMILIES
 from reference.problems.pendulum import family as groups
+from reference.routes import proven_flow
 from reference.routes.agreement import Agreement
 
 ROOT = Path(reference.__file__).parents[1]
@@ -32,6 +34,23 @@ def test_one_job_and_two_jobs_give_the_same_bytes(tmp_path):
     assert build(TINY, one, jobs=1) == build(TINY, two, jobs=2)
     assert one.read_bytes() == two.read_bytes()
     assert leftovers(tmp_path) == ["SHA256SUMS", "one.h5", "two.h5"]
+
+
+@pytest.mark.parametrize("name", ["detest_a1", "detest_a4", "kepler_e_0"])
+def test_a_group_of_a_flow_is_proven_by_one_flow(name, monkeypatch):
+    group = next(group for family in FAMILIES for group in family.core() if group.layout.path == f"/flow/{name}")
+    begun, begin = [], proven_flow.ProvenFlow.__init__
+
+    def counting(self, equation, bits, steps):
+        begun.append(bits)
+        begin(self, equation, bits, steps)
+
+    for known in (proven_flow._flows, proven_flow._losses):
+        known.cache_clear()
+    monkeypatch.setattr(proven_flow.ProvenFlow, "__init__", counting)
+    compute_all(tuple(group.blocks()))
+    assert begun[0] == proven_flow.LEAST_BITS
+    assert len(begun) == 2
 
 
 def test_the_day_changes_the_provenance_and_not_the_fingerprint(tmp_path, monkeypatch):

@@ -228,6 +228,22 @@ def test_zivs_loop_asks_again_only_for_the_rows_that_are_undecided():
     assert asked == [(100, [0, 1]), (200, [1]), (400, [1])]
 
 
+def test_zivs_loop_tells_how_accurate_the_least_of_the_undecided_balls_is():
+    told = []
+
+    def more(bits, least):
+        told.append((bits, least))
+        return 3 * bits
+
+    def enclose(rows):
+        return [[arb(1, 2.0**-20), arb(1, 2.0**-50) if ctx.prec < 300 else arb(1)] for _ in rows]
+
+    assert ziv(
+        enclose, lambda ball: "" if ball.rel_accuracy_bits() < 40 or ctx.prec > 99 else None, 1, 64, "", 999, more
+    )
+    assert [(bits, 48 <= least <= 52) for bits, least in told] == [(64, True), (192, False)]
+
+
 def test_a_value_that_stays_undecided_is_an_error_that_names_it():
     with pytest.raises(WorkBoundError, match=r"^sqrt\(2\) squared could not be decided with 1000 bits"):
         ziv(

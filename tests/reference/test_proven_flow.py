@@ -14,6 +14,7 @@ import pytest
 from flint import arb, arb_mat
 
 from reference.arithmetic.limbs import WorkBoundError
+from reference.problems.families import find_family
 from reference.routes import proven_flow, variation
 from reference.routes.proven_flow import ProvenFlow
 from reference.routes.variation import Variation
@@ -249,3 +250,15 @@ def test_a_wrong_step_is_noticed(
     assert outside(system, radius, 50) == 0
     monkeypatch.setattr(where, name, wrong)
     assert outside(system, radius, 50)
+
+
+def test_what_is_lost_is_told_of_what_was_proven_and_by_components_of_what_is_small() -> None:
+    problem = find_family("kepler").problem()
+    for known in (proven_flow._flows, proven_flow._losses):
+        known.cache_clear()
+    assert proven_flow.lost(problem, Fraction(4)) == 0
+    proven_flow.see(problem, Fraction(16), 96)
+    assert 0 < proven_flow.lost(problem, Fraction(4)) <= proven_flow.lost(problem, Fraction(400)) < 4000
+    near = Fraction(1, 2**20)  # y is about t there, and x about one
+    assert proven_flow.told(problem, near, (1,)) > proven_flow.told(problem, near, (0,))
+    assert proven_flow.told(problem, near, (0, 1)) == proven_flow.told(problem, near, (1,))
