@@ -108,7 +108,7 @@ class Certified:
             WorkBoundError: the digits could not be decided within the bound on the working precision.
         """
         places = counted(places, "places", MAX_DIGITS)
-        bits = math.ceil(places * math.log2(10)) + 64  # more where the number is large: the proof doubles them
+        bits = math.ceil(places * math.log2(10)) + 64  # a large number takes more, which the proof finds
         return self._decide(*to_fixed(places), bits)  # type: ignore[no-any-return]
 
     def __format__(self, spec: str) -> str:

@@ -249,8 +249,8 @@ class Equation(Protocol):
 class WorkingBits(Protocol):
     """How many working bits the rows of a problem take; only speed depends on it."""
 
-    def bits(self, row: str, arguments: Sequence[Any]) -> int:
-        """Those that are expected to be lost, beyond what guards every decision."""
+    def bits(self, row: str, arguments: Sequence[Any], component: int | None = None) -> int:
+        """Those that all quantities of a row, or one, are expected to lose, beyond what guards every decision."""
         ...
 
     def more(self, missing: int, bits: int) -> int:

@@ -243,20 +243,29 @@ class FlowProblem(Problem):
         """The proven flow, with its crossings and its derivatives."""
         return _FlowRows(self)
 
-    def flow_reading(self, row: str, arguments: Sequence[Any]) -> FlowReading:
-        """As ever; ends at their times, crossings and invariants up to the end, derivatives of a flow of their own."""
-        if row in {END, CONSERVED}:
-            multiples = arguments if row == END else [1]
-            return super().flow_reading("state", [multiple * self.end for multiple in multiples])
-        if row in {CONDITION, CROSSINGS}:
-            last = max((time for time in arguments if isinstance(time, Fraction)), key=abs, default=self.end)
-            return FlowReading(self, [(last, ())], TRANSITION_BITS if row == CONDITION else 0)
-        found = super().flow_reading(row, arguments)
+    def flow_reading(self, row: str, arguments: Sequence[Any], component: int | None = None) -> FlowReading:
+        """As ever; ends at their times, what is conserved at the end, derivatives of a flow of their own."""
+        if row == END:
+            return super().flow_reading("state", [multiple * self.end for multiple in arguments], component)
+        if row == CONSERVED:
+            return FlowReading(self, [self.end], lambda _, state: self._invariants(arguments, state), proves=False)
+        if row == CROSSINGS:
+            return FlowReading(self, [], until=self.end)
+        if row == CONDITION:
+            return FlowReading(self, arguments, beside=TRANSITION_BITS)
         if not row.startswith(SENSITIVITY):
-            return found
-        size = len(self.state_names)
-        slopes = [(time, tuple(size + place for place in places)) for time, places in found.times]
-        return FlowReading(self.sensitivity(row.removeprefix(SENSITIVITY)), slopes)
+            return super().flow_reading(row, arguments, component)
+        by, size = row.removeprefix(SENSITIVITY), len(self.state_names)
+
+        def slopes(time: Fraction, state: list[arb]) -> list[arb]:
+            exact = self.exact_row(row, time) or [None] * size
+            places = range(size) if component is None else [component]
+            return [state[size + place] for place in places if exact[place] is None]
+
+        return FlowReading(self.sensitivity(by), arguments, slopes)
+
+    def _invariants(self, indices: Sequence[int], state: Sequence[arb]) -> list[arb]:
+        return [BALL.number(Fraction(0)) + self.conserved(index, BALL, state) for index in indices]
 
     def within_taylor(self, row: str, arguments: Sequence[Any]) -> bool:
         """As ever; of many condition numbers those of the first times, since variations take longer than the proof."""
@@ -335,11 +344,12 @@ class _Known:
         if is_known(problem.kind):
             state = problem.known_state(MPMATH.number(problem.end))
             return [(problem.conserved(index, MPMATH, state),) for index in arguments]
-        read = self._bits - KNOWN_BITS + READ_BITS
-        see(problem, problem.end, read)
-        with ctx.workprec(read + lost(problem, problem.end)):
+        bits = self._bits - KNOWN_BITS + READ_BITS
+        see(problem, problem.end, lambda: bits)
+        bits += problem.flow_reading(row, arguments).seen(1) or lost(problem, problem.end)
+        with ctx.workprec(bits):
             (balls,) = FlowSolution(problem).rows("state", [problem.end])
-            found = [problem.conserved(index, BALL, balls).mid() for index in arguments]
+            found = [one.mid() for one in problem._invariants(arguments, balls)]  # noqa: SLF001 - of the same module
         return [(mp.ldexp(mp.mpf(int(mantissa)), int(e)),) for mantissa, e in (one.man_exp() for one in found)]
 
 

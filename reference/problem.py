@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
 
     import numpy as np
+    from flint import arb
 
     from reference.arithmetic.protocols import Arithmetic
     from reference.constants import Constant
@@ -357,12 +358,21 @@ class Problem:
         """How many working bits its rows take."""
         return OfClosedForm(self) if self.has_closed_form else OfFlow(self)
 
-    def flow_reading(self, row: str, arguments: Sequence[Any]) -> FlowReading:
-        """Where a row is read of a flow: at the times among its arguments, what is not exactly rational there."""
-        known = [(time, self.exact_row(row, time) or ()) for time in arguments if isinstance(time, Fraction)]
-        everywhere = range(len(self.state_names))
-        times = [(time, tuple(i for i in everywhere if not exact or exact[i] is None)) for time, exact in known]
-        return FlowReading(self, [(time, places) for time, places in times if places])
+    def flow_reading(self, row: str, arguments: Sequence[Any], component: int | None = None) -> FlowReading:
+        """Where a row is read of a flow: the state at the times among its arguments, but for what is exactly rational.
+
+        Of a row of the problem's own only the last of these times is known.
+        """
+        times = [argument for argument in arguments if isinstance(argument, Fraction)]
+        if row != "state":
+            return FlowReading(self, [], until=latest(times))
+
+        def values(time: Fraction, state: list[arb]) -> list[arb]:
+            exact = self.exact_row(row, time) or [None] * len(state)
+            places = range(len(state)) if component is None else [component]
+            return [state[place] for place in places if exact[place] is None]
+
+        return FlowReading(self, times, values)
 
     def by_route(
         self, route: str, row: str, arguments: Sequence[Any], digits: int
@@ -375,12 +385,14 @@ class Problem:
         arguments = self.arguments(row, arguments)
         if route in dict(self.row(row).lacks) or (route == "quadrature" and not self.has_closed_form):
             return None
+        if route == "taylor" and not self.within_taylor(row, arguments):
+            return None
         bits = self.working.of_route(row, arguments, int(digits * 3.33))
         if bits > ROUTE_BITS:
             return None
         if route == "quadrature":
             return quadrature.rows(self.quadrature_form, row, arguments, bits)
-        if bits > TAYLOR_BITS or not self.within_taylor(row, arguments):
+        if bits > TAYLOR_BITS:
             return None
         with mp.workprec(bits):
             return self.taylor_form(bits).rows(row, arguments)

@@ -22,7 +22,7 @@ from reference.arithmetic.limbs import to_limbs
 from reference.command.marked import BusyError, PlaceError, abandoned, required
 from reference.dataset.claims import DECIMAL_DIGITS
 from reference.routes import enclosure
-from reference.routes.agreement import FLOW_BITS, ROUTES, agreement
+from reference.routes.agreement import FLOW_ACCURACY, ROUTES, agreement
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Sequence
@@ -42,7 +42,7 @@ __all__ = [
     "compute",
     "compute_all",
     "decimals",
-    "longest_first",
+    "flows_first",
     "partial",
     "place_of",
     "prepare",
@@ -201,8 +201,8 @@ def together(blocks: Iterable[Block]) -> Iterator[tuple[Block, ...]]:
             yield from ((block,) for block in several)
 
 
-def longest_first(groups: Iterable[Group]) -> Iterator[Block]:
-    """The blocks of groups, first of those that are of a flow: what is begun last is to end soon."""
+def flows_first(groups: Iterable[Group]) -> Iterator[Block]:
+    """The blocks of groups, those of flows first: what is begun last is to end soon."""
     for group in sorted(groups, key=lambda group: not group.layout.inputs):
         yield from group.blocks()
 
@@ -216,7 +216,7 @@ def prepare(blocks: Sequence[Block], bits: int) -> None:
 
 def compute_all(blocks: tuple[Block, ...]) -> list[Result]:
     """``compute`` of each."""
-    prepare(blocks, max(START_BITS, FLOW_BITS))
+    prepare(blocks, max(START_BITS, FLOW_ACCURACY))
     return [compute(block) for block in blocks]
 
 

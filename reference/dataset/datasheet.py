@@ -66,7 +66,7 @@ relative to the largest value of the quantity along a trajectory, or nothing is 
 The tables above give the least number of agreeing digits of each route and over how many elements it was compared; \
 in the file these are the attributes `taylor_digits`, `taylor_checked_elements`, \
 `quadrature_digits` and `quadrature_checked_elements`.
-`python -m reference verify FILE` proves every limb again, from twice the working precision, and every decimal of \
+`python -m reference verify FILE` proves every limb again, in other working precisions, and every decimal of \
 the attributes `decimal`; the routes are asked again for some of each row.
 
 ## How to read it

@@ -16,7 +16,7 @@ from reference.dataset.blocks import (
     START_BITS,
     compare,
     decimals,
-    longest_first,
+    flows_first,
     prepare,
     prove,
     require_portable,
@@ -43,7 +43,7 @@ if TYPE_CHECKING:
 
 __all__ = ["Proof", "differs", "verify"]
 
-AGAIN_BITS = {True: 2 * START_BITS, False: START_BITS + 53}
+CLOSED_FORM_BITS, FLOW_BITS = 2 * START_BITS, START_BITS + 53
 """Balls start at so many bits: of closed forms at twice those of the build, of flows at a limb more, in other steps."""
 TAYLOR_ELEMENTS = 6
 """Arguments a row that the Taylor route is asked for again, from the first."""
@@ -139,14 +139,14 @@ def _sampled(groups: Sequence[Group]) -> Iterator[Block]:
     the arguments that the Taylor route reaches quickly, others by none.
     """
     middle = {group.layout.path: group.elements // 2 for group in groups}
-    for block in longest_first(groups):
+    for block in flows_first(groups):
         asked = block.element == middle[block.layout.path] and block.start == 0
         yield replace(block, taylor_elements=TAYLOR_ELEMENTS if asked else 0)
 
 
 def _again(blocks: tuple[Block, ...]) -> list[tuple[np.ndarray, tuple[str, ...], Digits | None]]:
     """Of each block the limbs, proven in more bits than those of the build, the decimals, and the routes' digits."""
-    bits = AGAIN_BITS[blocks[0].problem.has_closed_form]
+    bits = CLOSED_FORM_BITS if blocks[0].problem.has_closed_form else FLOW_BITS
     prepare(blocks, bits)
     return [
         (prove(block, bits), decimals(block), _routes(block) if block.taylor_elements else None) for block in blocks

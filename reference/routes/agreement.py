@@ -22,13 +22,13 @@ if TYPE_CHECKING:
 
     from reference.declaration import Declared, Row
 
-__all__ = ["FLOW_BITS", "REQUIRED_DIGITS", "ROUTES", "ROUTE_DIGITS", "Agreement", "DisagreementError", "agreement"]
+__all__ = ["FLOW_ACCURACY", "REQUIRED_DIGITS", "ROUTES", "ROUTE_DIGITS", "Agreement", "DisagreementError", "agreement"]
 
 REQUIRED_DIGITS = 45
 ROUTE_DIGITS, FLOW_DIGITS = 60, 50
 """To so many digits routes are held against the enclosure, and where that is a flow."""
-ROUTE_BITS, FLOW_BITS = 219, 174
-"""And to so many bits is the enclosure known there."""
+ROUTE_ACCURACY, FLOW_ACCURACY = 219, 174
+"""And to so many bits is the enclosure known there: 20 beyond these digits, and of flows, which cost more, 8."""
 FAR = Fraction(10) ** 300
 """A gap that is larger is as bad."""
 ROUTES = ("taylor", "quadrature")
@@ -57,7 +57,7 @@ def agreement(problem: Declared, row: str, arguments: Sequence[Any], route: str)
     Raises:
         DisagreementError: fewer than REQUIRED_DIGITS digits agree somewhere.
     """
-    held, bits = (ROUTE_DIGITS, ROUTE_BITS) if problem.has_closed_form else (FLOW_DIGITS, FLOW_BITS)
+    held, bits = (ROUTE_DIGITS, ROUTE_ACCURACY) if problem.has_closed_form else (FLOW_DIGITS, FLOW_ACCURACY)
     found = problem.by_route(route, row, arguments, held)
     if found is None:
         return None

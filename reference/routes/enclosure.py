@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
     from reference.declaration import Declared, Solution
 
-__all__ = ["balls", "decide"]
+__all__ = ["GUARD_BITS", "balls", "decide"]
 
 GUARD_BITS = 40
 CHART_BITS = 20
@@ -52,7 +52,7 @@ def decide(
     pending = [i for i, known in enumerate(rational) if known is None or None in known]
     wanted, guarded = [arguments[i] for i in pending], bits + GUARD_BITS
     problem.working.foresee(row, wanted, guarded)
-    start = guarded + problem.working.bits(row, wanted)
+    start = guarded + problem.working.bits(row, wanted, component)
     bound = min(problem.max_bits, problem.row(row).max_bits)
 
     def answer(value: Any) -> Answer | None:

@@ -63,11 +63,11 @@ __all__ = [
     "Piece",
     "ProvenFlow",
     "lost",
+    "lost_in",
     "prove",
     "proven",
     "put_off",
     "see",
-    "told",
 ]
 
 STEPS = 1 << 15
@@ -75,7 +75,7 @@ STEPS = 1 << 15
 WATCHED, LENIENT = 64, 2
 """After so many steps it is seen whether the rest will do, were steps so many times as long from there on."""
 LITTLE = Fraction(1, 16)
-"""A horizon that twice the bits extend by no more than that part is one of the equation, and not of the precision."""
+"""A horizon that more bits extend by no more than that part is one of the equation, and not of the precision."""
 KEPT = 3
 """Equations whose flows are kept with their pieces, and flows of each, of other precisions."""
 LEAST_BITS, BITS_APART = 96, 16
@@ -90,8 +90,10 @@ GAIN = 8
 """Bits that halving a step has to gain."""
 TELLING = 32
 """After so many steps what is lost in a flow tells what will be."""
+FARTHEST = 16
+"""So many times as far, and no farther."""
 SMALLER = 16
-"""What a component of which not a bit is known is taken to lack beyond all bits of its flow."""
+"""What a value of which not a bit is known is taken to lack beyond all bits of its flow."""
 SIDES = 10
 """Up to so many components a parallelepiped of errors is carried: it costs products of matrices in each step."""
 
@@ -153,6 +155,14 @@ class ProvenFlow:
         """
         with ctx.workprec(self.bits):
             return self._side(-1 if time < 0 else 1).piece(time).at(time)
+
+    def go(self, time: Fraction, until: Fraction) -> None:
+        """Go on to a time, on the way to another one.
+
+        Raises:
+            WorkBoundError: the work bound is met before, or seen to be before the other one.
+        """
+        self._side(-1 if time < 0 else 1).place(time, until)
 
     def piece(self, place: int) -> Piece:
         """A piece after the start, counted from 0.
@@ -222,11 +232,11 @@ class _Side:
         """The piece on which a time lies."""
         return self.pieces[self.place(time)]
 
-    def place(self, time: Fraction) -> int:
-        """Which of the pieces that is."""
+    def place(self, time: Fraction, until: Fraction = Fraction(0)) -> int:
+        """Which of the pieces that is; as many steps are granted as lead on to another time, if it is later."""
         with ctx.workprec(self.bits):
             while not self.pieces or abs(time) > abs(self.reached):
-                self._require_granted(abs(time))
+                self._require_granted(max(abs(time), abs(until)))
                 self._advance()
         place = bisect_right(self._ends, abs(time)) if time != self.reached else len(self.pieces) - 1
         return min(place, len(self.pieces) - 1)
@@ -581,7 +591,8 @@ class _Loss:
 
     def at(self, time: Fraction) -> float:
         """Those lost at a time, and beyond what was proven as they grew in its second half, were these steps many."""
-        further = max(0.0, float(abs(time) / self.reached) - 1) if self.steps >= TELLING else 0.0
+        ratio = min(abs(time) / self.reached, Fraction(FARTHEST)) if self.steps >= TELLING else Fraction(1)
+        further = max(0.0, float(ratio) - 1)
         return self.bits + 2 * further * max(0.0, self.bits - self.half)
 
 
@@ -591,34 +602,49 @@ def lost(equation: Any, time: Fraction) -> int:
     return math.ceil(known.at(time)) if known else 0
 
 
-def told(equation: Any, time: Fraction, components: Sequence[int]) -> int | None:
-    """Bits that these components, by their places, lack at a time, by the best flow that is kept and proven so far.
+def lost_in(
+    equation: Any, times: Sequence[Fraction], values: Callable[[Fraction, list[arb]], Sequence[arb]]
+) -> int | None:
+    """Bits that values, read of the states at some times, lack, by the best flow that is kept and proven so far.
 
-    None where there is none.  One that is small lacks more than are lost.
+    None where there is none.  Of a ball with zero in it only a flow of the fewest bits says more than nothing: there it
+    is taken to lack some bits beyond all of these.
     """
-    flows = [flow for flow in _flows(equation).values() if flow.reaches(time)]
-    if not flows or not components:
+    flows = [flow for flow in _flows(equation).values() if flow.reaches(max(times)) and flow.reaches(min(times))]
+    if not flows:
         return None
-    flow = max(flows, key=lambda flow: flow.bits)
-    state = flow.at(time)
-    accurate = min(state[place].rel_accuracy_bits() for place in components)
-    lacking: int = flow.bits - (accurate if accurate > 0 else max(accurate, -SMALLER) - SMALLER)
-    return lacking
+    flow, found = max(flows, key=lambda flow: flow.bits), list[int]()
+    with ctx.workprec(flow.bits):
+        for time in times:
+            for ball in values(time, flow.at(time)):
+                accurate = min(int(ball.rel_accuracy_bits()), flow.bits)
+                if accurate > 0:
+                    found.append(flow.bits - accurate)
+                elif flow.bits <= LEAST_BITS:
+                    found.append(flow.bits + SMALLER + min(-accurate, SMALLER))
+    return max(found, default=None)
 
 
-def see(equation: Any, time: Fraction, bits: int) -> None:
-    """Prove a flow to a time in so many bits, as far as these reach, where it was not: what it loses is then known."""
-    sign = -1 if time < 0 else 1
-    known = _losses(equation).get(sign)
+def see(equation: Any, time: Fraction, bits: Callable[[], int], until: Fraction | None = None) -> None:
+    """Prove a flow to a time, where it was not, in so many bits, as far as these reach: what it loses is then known.
+
+    Raises:
+        WorkBoundError: to this time, or ``until`` another one, it takes more steps than are granted.
+    """
+    known = _losses(equation).get(-1 if time < 0 else 1)
     if known is None or known.reached < abs(time):
-        prove(equation, time, bits)
+        prove(equation, time, bits(), until)
 
 
-def prove(equation: Any, time: Fraction, bits: int) -> None:
-    """Prove a flow to a time in so many bits, as far as these reach: what is asked of it later is there then."""
+def prove(equation: Any, time: Fraction, bits: int, until: Fraction | None = None) -> None:
+    """Prove a flow to a time in so many bits, as far as these reach: what is asked of it later is there then.
+
+    Raises:
+        WorkBoundError: to this time, or ``until`` another one, it takes more steps than are granted.
+    """
     flow = proven(equation, bits, time)
-    with suppress(WorkBoundError):
-        flow.at(time)
+    with suppress(HorizonError):
+        flow.go(time, time if until is None else until)
     _note(flow, -1 if time < 0 else 1)
 
 

@@ -1,38 +1,42 @@
 """How many working bits a row of a problem takes, and what to take after too few.
 
-A closed form tells beforehand.  A flow loses what it loses: a part of its way tells about how much, or a flow of few
-bits, and what a value lacks after all is taken more.  Only speed depends on any of it.
+A closed form tells beforehand.  What a flow loses is told by a part of its way, or by a flow of few bits; and what a
+value lacks after all is taken more.  Only speed depends on any of it.
 """
 
 from __future__ import annotations
 
+from contextlib import suppress
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
-from reference.routes.proven_flow import LEAST_BITS, lost, prove, see, told
+from reference.arithmetic.limbs import WorkBoundError
+from reference.routes.proven_flow import LEAST_BITS, lost, lost_in, prove, see
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Callable, Sequence
+
+    from flint import arb
 
 __all__ = ["FlowReading", "OfClosedForm", "OfFlow", "latest"]
 
-SPARED, KNOWN = 30, 38
-"""Bits that a flow may lose of those that guard every decision, and where what it loses is known; the more decisions,
-the fewer.
-"""
+GUESSED, SEEN = 30, 38
+"""Of the bits that guard every decision so many are no more needed where the loss is guessed, and where it was seen."""
 LEAST_LOST = 16
 """Bits that any flow loses, about."""
 LEAST_MORE = 32
 """So many more are taken at least where those of a flow were not enough."""
-SURELY = 12
-"""So many more for a flow that is to serve many rows."""
+OF_ALL_ROWS = 12
+"""So many more for a flow that is to serve many rows: another flow was seen to lose what it will lose."""
 PART_SEEN = 8
 """This part of the way of a flow tells, about, what the whole loses."""
-SEEN_BITS = 60
-"""So many more bits than it is held to does a flow take that tells what another route takes."""
-ROUTE_BITS = 30
+LOOKED_AT = 64
+"""Of many times so many are looked at, where none but these are asked for."""
+OTHER_ROUTE = 30
 """So many more bits than it is held to takes a route that proves nothing, at least."""
+ROUNDINGS = 28
+"""And so many more than what is lost, for roundings of its own."""
 
 
 class OfClosedForm:
@@ -41,8 +45,8 @@ class OfClosedForm:
     def __init__(self, problem: Any) -> None:
         self._problem = problem
 
-    def bits(self, row: str, arguments: Sequence[Any]) -> int:
-        del row
+    def bits(self, row: str, arguments: Sequence[Any], component: int | None = None) -> int:
+        del row, component
         found: int = self._problem.working_bits(arguments)
         return found
 
@@ -57,7 +61,7 @@ class OfClosedForm:
         """Nothing is shared."""
 
     def of_route(self, row: str, arguments: Sequence[Any], bits: int) -> int:
-        return bits + 2 * self.bits(row, arguments) + ROUTE_BITS
+        return bits + 2 * self.bits(row, arguments) + OTHER_ROUTE
 
 
 @dataclass(frozen=True)
@@ -66,27 +70,36 @@ class FlowReading:
 
     Attributes:
         equation: the one whose flow it is.
-        times: each with the components of its state of which the values are wanted, by their places.
+        times: when.
+        values: (time, state) -> the balls that are read then; None where what they lack is no matter of the state.
         beside: bits that are lost beside those that the state loses.
+        until: up to when the flow goes, where no times tell.
+        proves: whether it is read so by the proof, and not by other routes alone.
     """
 
     equation: Any
-    times: Sequence[tuple[Fraction, tuple[int, ...]]]
+    times: Sequence[Fraction]
+    values: Callable[[Fraction, list[arb]], Sequence[arb]] | None = None
     beside: int = 0
+    until: Fraction = Fraction(0)
+    proves: bool = True
 
     @property
     def ends(self) -> set[Fraction]:
         """The last time on each side of the start."""
-        times = [time for time, _ in self.times]
-        return {max(times, default=Fraction(0)), min(times, default=Fraction(0))} - {Fraction(0)}
+        return {max(self.times, default=Fraction(0)), min(self.times, default=Fraction(0))} - {Fraction(0)}
 
-    @property
-    def lost(self) -> int:
-        """Bits that are lost in it, as far as is known, beyond those that it may."""
-        known = [told(self.equation, *time) for time in self.times]
-        if known and None not in known:
-            return self.beside + max(one for one in known if one is not None) - KNOWN
-        return self.beside + max([LEAST_LOST, *(lost(self.equation, time) for time, _ in self.times)]) - SPARED
+    def guessed(self) -> int:
+        """Bits that are lost, by what the flow lost so far."""
+        ends = self.ends or {self.until}
+        return self.beside + max([LEAST_LOST, *(lost(self.equation, end) for end in ends)])
+
+    def seen(self, most: int) -> int | None:
+        """Bits that the values lack in a flow that is there, looked at so many times at most; None where none is."""
+        if self.values is None or not self.times:
+            return None
+        apart = -(-len(self.times) // most)
+        return lost_in(self.equation, self.times[::apart], self.values)
 
 
 class OfFlow:
@@ -95,18 +108,25 @@ class OfFlow:
     def __init__(self, problem: Any) -> None:
         self._problem = problem
 
-    def bits(self, row: str, arguments: Sequence[Any]) -> int:
-        decided = len(arguments) * len(self._problem.row(row).quantities)
-        return self._reading(row, arguments).lost + decided.bit_length()
+    def bits(self, row: str, arguments: Sequence[Any], component: int | None = None) -> int:
+        """Of what other routes alone read of a flow hardly any."""
+        if not self._reading(row, arguments).proves:
+            return LEAST_LOST - GUESSED
+        return self._bits(row, arguments, component, LOOKED_AT)
 
     def more(self, missing: int, bits: int) -> int:
-        return bits + max(LEAST_MORE, min(missing, bits // 2))
+        """So many more as are missing; half as many more where nothing is, or all of it."""
+        return bits + (max(LEAST_MORE, min(missing, bits // 2)) if missing > 0 else bits // 2)
 
     def foresee(self, row: str, arguments: Sequence[Any], bits: int) -> None:
-        """By a part of its way."""
-        last = latest(arguments)
-        if last:
-            see(self._reading(row, arguments).equation, last / PART_SEEN, bits + self.bits(row, arguments))
+        """By a part of its way.
+
+        Raises:
+            WorkBoundError: the whole way takes more steps than are granted.
+        """
+        reading = self._reading(row, arguments)
+        for end in reading.ends if reading.proves else ():
+            see(reading.equation, end / PART_SEEN, lambda: bits + self.bits(row, arguments), end)
 
     def prepare(self, asked: Sequence[tuple[str, Sequence[Any]]], bits: int) -> None:
         """By a flow of few bits; then one proves what the rows of an equation are read of."""
@@ -114,20 +134,33 @@ class OfFlow:
         for row, arguments in asked:
             shared.setdefault(self._reading(row, arguments).equation, []).append((row, arguments))
         for equation, rows in shared.items():
-            ends = set().union(*(self._reading(*row).ends for row in rows))
+            ends = sorted(set().union(*(self._reading(*row).ends for row in rows)))
             for end in ends:
-                see(equation, end, LEAST_BITS)
-            most = bits + SURELY + max(self.bits(*row) for row in rows)
+                with suppress(WorkBoundError):
+                    see(equation, end, lambda: LEAST_BITS)
+            most = bits + OF_ALL_ROWS + max(self._bits(*row, None, max(1, len(row[1]))) for row in rows)
             for end in ends:
-                prove(equation, end, most)
+                with suppress(WorkBoundError):
+                    prove(equation, end, most)
 
     def of_route(self, row: str, arguments: Sequence[Any], bits: int) -> int:
         """By a flow, where none is there."""
-        see(self._reading(row, arguments).equation, latest(arguments), bits + SEEN_BITS)
-        return bits + max(ROUTE_BITS, self._reading(row, arguments).lost + KNOWN + 20)
+        reading = self._reading(row, arguments)
+        for end in reading.ends:
+            with suppress(WorkBoundError):
+                see(reading.equation, end, lambda: bits + 2 * OTHER_ROUTE)
+        seen = reading.seen(LOOKED_AT)
+        return bits + max(OTHER_ROUTE, (reading.guessed() if seen is None else seen) + ROUNDINGS)
 
-    def _reading(self, row: str, arguments: Sequence[Any]) -> FlowReading:
-        found: FlowReading = self._problem.flow_reading(row, arguments)
+    def _bits(self, row: str, arguments: Sequence[Any], component: int | None, most: int) -> int:
+        """Beyond those that the guard of every decision has to spare."""
+        decided = len(arguments) * (len(self._problem.row(row).quantities) if component is None else 1)
+        reading = self._reading(row, arguments, component)
+        seen = reading.seen(most)
+        return decided.bit_length() + (reading.guessed() - GUESSED if seen is None else seen - SEEN)
+
+    def _reading(self, row: str, arguments: Sequence[Any], component: int | None = None) -> FlowReading:
+        found: FlowReading = self._problem.flow_reading(row, arguments, component)
         return found
 
 
