@@ -42,7 +42,7 @@ __all__ = [
     "compute",
     "compute_all",
     "decimals",
-    "flows_first",
+    "in_turn",
     "partial",
     "place_of",
     "prepare",
@@ -201,9 +201,18 @@ def together(blocks: Iterable[Block]) -> Iterator[tuple[Block, ...]]:
             yield from ((block,) for block in several)
 
 
-def flows_first(groups: Iterable[Group]) -> Iterator[Block]:
-    """The blocks of groups, those of flows first: what is begun last is to end soon."""
-    for group in sorted(groups, key=lambda group: not group.layout.inputs):
+def in_turn(groups: Iterable[Group]) -> Iterator[Block]:
+    """The blocks of groups as they are begun: those of flows, which take longest, between two halves of the others.
+
+    The first ones tell soon how it goes on, and what is begun last ends soon.
+    """
+    flows: list[Group] = []
+    others: list[Group] = []
+    for group in groups:
+        (flows if group.layout.inputs else others).append(group)
+    flows.sort(key=lambda group: len(group.layout.variables), reverse=True)
+    half = len(others) // 2
+    for group in (*others[:half], *flows, *others[half:]):
         yield from group.blocks()
 
 

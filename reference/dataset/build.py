@@ -21,7 +21,7 @@ from reference.dataset.blocks import (
     Result,
     compute,
     compute_all,
-    flows_first,
+    in_turn,
     partial,
     place_of,
     require_portable,
@@ -152,7 +152,7 @@ def _ensure_space(plan: Plan, target: Path) -> None:
 
 def _prove(plan: Plan, finished: Partial, jobs: int, executor: str, progress: Callable[[int, int], None]) -> None:
     """Prove every task of which a block is not finished yet, as a whole: what it shares does not depend on the rest."""
-    tasks = deque(together(flows_first(plan.groups)))
+    tasks = deque(together(in_turn(plan.groups)))
     total = sum(map(len, tasks))
     tasks = deque(task for task in tasks if not all(finished.has(block.key) for block in task))
     done = total - sum(map(len, tasks))

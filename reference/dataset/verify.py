@@ -16,7 +16,7 @@ from reference.dataset.blocks import (
     START_BITS,
     compare,
     decimals,
-    flows_first,
+    in_turn,
     prepare,
     prove,
     require_portable,
@@ -139,7 +139,7 @@ def _sampled(groups: Sequence[Group]) -> Iterator[Block]:
     the arguments that the Taylor route reaches quickly, others by none.
     """
     middle = {group.layout.path: group.elements // 2 for group in groups}
-    for block in flows_first(groups):
+    for block in in_turn(groups):
         asked = block.element == middle[block.layout.path] and block.start == 0
         yield replace(block, taylor_elements=TAYLOR_ELEMENTS if asked else 0)
 

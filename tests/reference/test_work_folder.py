@@ -21,6 +21,7 @@ from reference.dataset import build as building
 from reference.dataset.blocks import partial
 from reference.dataset.build import build
 from reference.dataset.checksums import checksums
+from reference.layout import Group
 
 ROOT = Path(reference.__file__).parents[1]
 PROGRAM = Path(__file__).with_name("arrangements.py")
@@ -264,8 +265,8 @@ def test_a_list_of_checksums_without_end_is_refused_before_it_costs_memory(tmp_p
 
 def test_a_build_lists_its_blocks_once_and_tells_of_its_progress_before_it_proves(tmp_path, monkeypatch):
     told, listed = [], []
-    blocks = type(TINY).blocks
-    monkeypatch.setattr(type(TINY), "blocks", lambda self: listed.append(told[:]) or blocks(self))
+    blocks = Group.blocks
+    monkeypatch.setattr(Group, "blocks", lambda self: listed.append(told[:]) or blocks(self))
     compute = building.compute_all
     monkeypatch.setattr(building, "compute_all", lambda blocks: told.append("proven") or compute(blocks))
     build(TINY, tmp_path / "x.h5", progress=lambda done, total: told.append((done, total)))
