@@ -8,7 +8,14 @@ from pathlib import Path
 import pytest
 from plans import SMALL
 
+import reference
 from reference.dataset.build import build
+
+
+@pytest.fixture(scope="session")
+def core():
+    """The core dataset as it is shipped, loaded once: that takes some seconds."""
+    return reference.load()
 
 
 @pytest.fixture(scope="session")

@@ -196,9 +196,9 @@ def test_reading_it_without_naming_its_family_says_what_is_accepted(own):
     assert reference.load(own, [OSCILLATOR, NAME, "pendulum"]).fingerprint == reference.load(own, [NAME]).fingerprint
 
 
-def test_the_core_dataset_is_read_as_ever_where_a_family_is_named():
-    assert reference.load(families=[OSCILLATOR]).fingerprint == reference.load().fingerprint
-    assert reference.load().families == ()
+def test_the_core_dataset_is_read_as_ever_where_a_family_is_named(core):
+    assert reference.load(families=[OSCILLATOR]).fingerprint == core.fingerprint
+    assert core.families == ()
 
 
 def test_a_grid_file_names_its_groups_beside_ours(tmp_path, monkeypatch, capsys):

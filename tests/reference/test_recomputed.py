@@ -8,14 +8,8 @@ from independent import correct_limbs
 from recomputed import RECOMPUTED
 from sampled import BITS, GUARD_BITS, elements, misrounded
 
-import reference
 from reference.dataset.catalogue import LAYOUTS, plan
 from reference.routes.flow import Flow
-
-
-@pytest.fixture(scope="module")
-def core():
-    return reference.load()
 
 
 def test_every_group_of_the_core_dataset_is_computed_again(core):

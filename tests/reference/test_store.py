@@ -219,21 +219,20 @@ def test_a_layout_with_one_problem_and_inputs_beside_the_axis_describes_its_arra
     assert curve.dtype == np.dtype("<i4")
 
 
-def test_the_core_dataset_is_found_and_sound():
+def test_the_core_dataset_is_found_and_sound(core):
     assert core_path().name == "horologium-core.h5"
-    dataset = reference.load()
-    assert set(dataset.groups) == {group.layout.path.strip("/") for group in plan().groups}
-    amplitudes = dataset["pendulum/libration/amplitude"].value
+    assert core.path == core_path()
+    assert set(core.groups) == {group.layout.path.strip("/") for group in plan().groups}
+    amplitudes = core["pendulum/libration/amplitude"].value
     assert {0.001, 0.301, 1.0, 1.501, np.pi - 1e-9} <= set(amplitudes)
-    assert np.array_equal(dataset["pendulum/libration/time"].value, np.arange(1001) / 100)
-    assert dataset["pendulum/long/time"].value[-1] == 2.0**30
+    assert np.array_equal(core["pendulum/libration/time"].value, np.arange(1001) / 100)
+    assert core["pendulum/long/time"].value[-1] == 2.0**30
 
 
-def test_every_stored_trajectory_agrees_by_both_routes_to_45_digits():
-    dataset = reference.load()
-    single = {layout.path.strip("/") for layout in dataset.layouts if not layout.instances}
+def test_every_stored_trajectory_agrees_by_both_routes_to_45_digits(core):
+    single = {layout.path.strip("/") for layout in core.layouts if not layout.instances}
     without, third = set(), set()
-    for variable in dataset.values():
+    for variable in core.values():
         if variable.is_input:
             continue
         attributes = variable.attrs
@@ -260,11 +259,11 @@ def test_every_stored_trajectory_agrees_by_both_routes_to_45_digits():
     assert not {"lorenz", "van-der-pol", "brusselator", "driven-pendulum"} & third
 
 
-def test_the_datasheet_beside_the_core_dataset_is_the_one_of_the_file():
+def test_the_datasheet_beside_the_core_dataset_is_the_one_of_the_file(core):
     from reference.dataset.datasheet import datasheet
 
     sheet = core_path().parent / "README.md"
-    assert sheet.read_text(encoding="utf-8") == datasheet(reference.load())
+    assert sheet.read_text(encoding="utf-8") == datasheet(core)
 
 
 def test_the_numbers_of_a_checked_dataset_cannot_be_changed(built):
