@@ -260,5 +260,10 @@ def test_what_is_lost_is_told_of_what_was_proven_and_by_components_of_what_is_sm
     proven_flow.see(problem, Fraction(16), 96)
     assert 0 < proven_flow.lost(problem, Fraction(4)) <= proven_flow.lost(problem, Fraction(400)) < 4000
     near = Fraction(1, 2**20)  # y is about t there, and x about one
-    assert proven_flow.told(problem, near, (1,)) > proven_flow.told(problem, near, (0,))
-    assert proven_flow.told(problem, near, (0, 1)) == proven_flow.told(problem, near, (1,))
+
+    def lacks(*components: int) -> int | None:
+        return proven_flow.lost_in(problem, [near], lambda _time, state: [state[place] for place in components])
+
+    assert lacks(1) == lacks(0, 1)
+    assert lacks(1) > lacks(0) > 0
+    assert proven_flow.lost_in(problem, [Fraction(10**6)], lambda _time, state: state) is None
