@@ -6,14 +6,29 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from compare.claims.asserting import assert_conserves, assert_order, assert_reversible, assert_symplectic
     from compare.claims.checking import check
     from compare.files.score import score
     from compare.methods.step_function import method
     from compare.scored import energy_drift, error_vs_n
 
-__all__ = ["check", "energy_drift", "error_vs_n", "method", "score"]
+__all__ = [
+    "assert_conserves",
+    "assert_order",
+    "assert_reversible",
+    "assert_symplectic",
+    "check",
+    "energy_drift",
+    "error_vs_n",
+    "method",
+    "score",
+]
 
 _HOMES = {
+    "assert_conserves": "compare.claims.asserting",
+    "assert_order": "compare.claims.asserting",
+    "assert_reversible": "compare.claims.asserting",
+    "assert_symplectic": "compare.claims.asserting",
     "check": "compare.claims.checking",
     "energy_drift": "compare.scored",
     "error_vs_n": "compare.scored",

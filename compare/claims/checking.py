@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import time
 from dataclasses import replace
+from fractions import Fraction
 from numbers import Real
 from typing import TYPE_CHECKING, Any
 
@@ -14,7 +15,7 @@ from compare.claims.candidate import Candidate, form_of
 from compare.claims.consistency import advance_of_a_constant_slope, iterates, uses
 from compare.claims.deadline import TimeOut, deadline
 from compare.claims.defects import Evidence, reversibility, symplecticity
-from compare.claims.energy import energy
+from compare.claims.energy import kept
 from compare.claims.engine import Lanes, Steps, Traced, Whole, chosen, repeatable
 from compare.claims.findings import Claims
 from compare.claims.frames import Exhausted, Frame, MisuseError, Scene
@@ -30,7 +31,7 @@ from reference.problem import Problem
 from reference.problems.families import usual_problem
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Sequence
 
     from compare.claims.engine import Marcher
     from compare.claims.order import Order
@@ -60,6 +61,8 @@ def check(
     order: float | None = None,
     symplectic: bool | None = None,
     reversible: bool | None = None,
+    backward: bool | None = None,
+    conserves: bool | None = None,
     problem: Problem | None = None,
     form: str | None = None,
     seconds: float = SECONDS,
@@ -78,6 +81,8 @@ def check(
         order: the order that is claimed, or None.
         symplectic: whether it is claimed to be symplectic.
         reversible: whether it is claimed to be reversible.
+        backward: whether the order is claimed for negative steps too.
+        conserves: whether it is claimed to keep every invariant that the problem declares, bounded or to rounding.
         problem: what it is tried on, any motion in time; the pendulum of 1 m released at 1 rad if None.
         form: "step", "timed", "separable" or "integrator", where the arguments' names do not say it.
         seconds: time after which the check is given up.
@@ -92,11 +97,13 @@ def check(
     scene = Scene(usual_problem() if problem is None else _motion(problem))
     if order is not None and not _is_order(order):
         raise ValueError(f"order is {order!r}; a positive number below {MOST_ORDER} is accepted.")
+    if backward and order is None:
+        raise ValueError("an order for negative steps is claimed without an order; both are accepted.")
     candidate = Candidate(step, form_of(step, form), _name(step))
     candidate.hold(scene)
     try:
         with deadline(seconds):
-            claims = Claims(None if order is None else float(order), symplectic, reversible)
+            claims = Claims(None if order is None else float(order), symplectic, reversible, conserves, backward)
             return _checked(candidate, claims, scene, time.monotonic() + seconds * PURSUED)
     except Exhausted as error:
         raise MisuseError(f"{candidate.name} {error} in one step; it does not come to an end.") from None
@@ -148,13 +155,15 @@ def _checked(candidate: Candidate, claims: Claims, scene: Scene, until: float) -
     else:
         series = None if marcher.whole else powers(candidate, scene, h)
     iterating = iterates(candidate, marcher, h)
-    kept = energy(marcher, h, _most_steps(marcher, calls))
+    energy, *others = kept(marcher, h, _most_steps(marcher, calls))
     evidence = Evidence(
         possible=name != "compiled" and still.kind != "own steps",
         iterates=iterating,
-        bounded=kept.bounded,
+        bounded=energy.bounded,
     )
     explicit = not (marcher.whole or iterating)
+    headed = _heading(candidate, marcher, h)
+    back = _back(marcher, counts, until) if claims.backward and headed.backward == "right" else None
     found = Check(
         name=candidate.name,
         form=candidate.form.name,
@@ -165,12 +174,21 @@ def _checked(candidate: Candidate, claims: Claims, scene: Scene, until: float) -
         swinging=swinging,
         symplecticity=symplecticity(marcher, h, evidence),
         reversibility=reversibility(marcher, h, evidence),
-        energy=kept,
-        heading=_heading(candidate, marcher, h),
+        energy=energy,
+        others=tuple(others),
+        heading=headed,
+        back=back,
         powers=series,
         advance=advance_of_a_constant_slope(candidate, scene, h) if explicit else None,
     )
     return replace(found, hint=_hint(found, marcher, scene.span))
+
+
+def _back(marcher: Marcher, counts: Sequence[int], until: float) -> Order | None:
+    """The order with negative steps from the start; None where the motion is not known before it."""
+    scene = marcher.scene
+    domain = scene.problem.domain(scene.problem.row("state"))
+    return measured(marcher, -scene.span, counts, until) if domain.contains(Fraction(-scene.span)) else None
 
 
 def _hold_measurable(name: str, found: Order, claims: Claims) -> None:

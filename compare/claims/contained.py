@@ -93,7 +93,7 @@ def _no_verdict(options: dict[str, Any]) -> str:
     """Which claims were being tested."""
     order = options.get("order")
     claims = [] if order is None else [f"order {order:g}"]
-    claims += [claim for claim in ("symplectic", "reversible") if options.get(claim)]
+    claims += [claim for claim in ("backward", "symplectic", "reversible", "conserves") if options.get(claim)]
     return f", and there is no verdict on the claim {' and '.join(claims)}" if claims else ""
 
 

@@ -1,4 +1,4 @@
-"""What an integrator does to the first invariant, the energy, over many periods: bounded, drifting, or blown up."""
+"""What an integrator does to each invariant, the energy first, over many periods: bounded, drifting, or blown up."""
 
 from __future__ import annotations
 
@@ -13,8 +13,9 @@ from compare.measure.order_fit import slope_with_interval
 
 if TYPE_CHECKING:
     from compare.claims.engine import Marcher
+    from compare.claims.frames import Scene
 
-__all__ = ["Energy", "energy"]
+__all__ = ["Energy", "kept"]
 
 ROUNDING = 1e-12
 LOST = 0.5
@@ -26,7 +27,7 @@ FEW_PERIODS = 48
 
 @dataclass(frozen=True)
 class Energy:
-    """The error of the energy over a long march.
+    """The error of an invariant over a long march.
 
     Attributes:
         behaviour: "rounding", "bounded", "drifting" or "lost", which is by half of it or more; "short" where the motion
@@ -55,18 +56,29 @@ class Energy:
         return self.behaviour in {"rounding", "bounded"}
 
 
-def energy(marcher: Marcher, h: float, steps: int) -> Energy:
-    """The energy over so many steps of h from the start, no further than the motion goes."""
+def kept(marcher: Marcher, h: float, steps: int) -> tuple[Energy, ...]:
+    """Each invariant over so many steps of h from the start, no further than the motion goes; the energy first.
+
+    Where none is declared there is one that says so.
+    """
     scene = marcher.scene
-    if scene.invariant is None or scene.lacks_energy:
-        return Energy("none", math.nan, math.nan, math.nan, h, 0, lacks=scene.lacks_energy)
-    units = scene.problem.space.independent
-    found = partial(Energy, invariant=scene.invariant.name, per={"s": "second", "": "unit of time"}.get(units, units))
+    if not scene.invariants:
+        return (Energy("none", math.nan, math.nan, math.nan, h, 0, lacks=scene.lacks_energy),)
     steps = int(min(steps, scene.end / h))
     start = scene.start[:, None]
     (states,) = marcher.states(start, np.array([h]), [range(1, steps + 1)])
+    return tuple(_kept(scene, index, states, h) for index in range(len(scene.invariants)))
+
+
+def _kept(scene: Scene, index: int, states: np.ndarray, h: float) -> Energy:
+    """One invariant along a march."""
+    name, steps = scene.invariants[index].name, len(states)
+    if lacks := scene.lacks_change(index):
+        return Energy("none", math.nan, math.nan, math.nan, h, 0, name, lacks=lacks)
+    units = scene.problem.space.independent
+    found = partial(Energy, invariant=name, per={"s": "second", "": "unit of time"}.get(units, units))
     with np.errstate(all="ignore"):
-        errors = scene.energy(states)
+        errors = scene.change(index, states)
     if not np.all(np.isfinite(errors)) or np.max(np.abs(errors)) > 1e6:
         return found("lost", math.inf, math.nan, math.nan, h, steps)
     sizes = np.abs(errors)

@@ -38,6 +38,8 @@ class Claims:
     order: float | None = None
     symplectic: bool | None = None
     reversible: bool | None = None
+    conserves: bool | None = None
+    backward: bool | None = None
 
 
 @dataclass(frozen=True)
@@ -60,6 +62,8 @@ class Findings:
         advance: by how many h a constant slope is advanced, 1 if that is right to rounding; None where the step is not
             explicit.
         hint: what would give a failing claim its order, where that is known.
+        others: what the invariants beside the energy do over that march.
+        back: the order with h < 0, into the past of that problem; None where it was not asked for or cannot be.
     """
 
     name: str
@@ -76,6 +80,8 @@ class Findings:
     powers: Powers | None = None
     advance: float | None = None
     hint: str | None = None
+    others: tuple[Energy, ...] = ()
+    back: Order | None = None
 
     @property
     def order(self) -> Order:
@@ -153,10 +159,20 @@ class Findings:
     @property
     def claims_hold(self) -> bool | None:
         """Whether all that is claimed holds: not where anything fails, None where anything is not established."""
-        standings = {self.order_standing}
-        standings.add(self._standing(self.claims.symplectic, self.symplecticity))
-        standings.add(self._standing(self.claims.reversible, self.reversibility))
+        standings = self.standings.values()
         return ANSWERS[next((one for one in ("fails", "open") if one in standings), "holds")]
+
+    @property
+    def standings(self) -> dict[str, Standing]:
+        """How each claim that is made stands, by its name."""
+        found = {
+            "order": self.order_standing,
+            "backward": self._back_standing,
+            "symplectic": self._standing(self.claims.symplectic, self.symplecticity),
+            "reversible": self._standing(self.claims.reversible, self.reversibility),
+            "conserves": self._conservation,
+        }
+        return {name: standing for name, standing in found.items() if standing is not None}
 
     @property
     def possible(self) -> bool:
@@ -191,6 +207,30 @@ class Findings:
         if not self.possible or not (defect.none or defect.undecided or defect.lacks):
             return "fails"
         return "open" if defect.lacks or defect.undecided or self.heading.backward == "refused" else "holds"
+
+    @property
+    def _back_standing(self) -> Standing | None:
+        """Of the claim that the order is that with h < 0 as well."""
+        claim, back = self.claims.order, self.back
+        if not self.claims.backward or claim is None:
+            return None
+        if not self.possible:
+            return "fails"
+        if back is None or back.value is None:
+            return "holds" if back is not None and back.kind == "floor" else "open"
+        if back.half_width <= WIDEST and back.value + max(ORDER_MARGIN, back.half_width) >= claim:
+            return "holds"
+        return "fails" if claim - back.value - back.half_width > MISSED or back.kind == "flat" else "open"
+
+    @property
+    def _conservation(self) -> Standing | None:
+        """Of the claim that every invariant is kept; one without a scale says nothing where another does."""
+        if not self.claims.conserves:
+            return None
+        told = [one for one in (self.energy, *self.others) if one.behaviour != "none"]
+        if not self.consistent or any(one.behaviour in {"drifting", "lost"} for one in told):
+            return "fails"
+        return "holds" if told and all(one.bounded for one in told) else "open"
 
     @property
     def established(self) -> bool:

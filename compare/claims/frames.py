@@ -307,25 +307,29 @@ class Scene:
         return errors_of_doubles(self.problem, times, y)
 
     @property
-    def invariant(self) -> Invariant | None:
-        """The first that is declared, the energy where there is one."""
-        return next(iter(self.problem.invariants), None)
+    def invariants(self) -> tuple[Invariant, ...]:
+        """Those that are declared, the energy first where there is one."""
+        return self.problem.invariants
 
     @cached_property
     def lacks_energy(self) -> str | None:
+        """Why no change of the first of them can be told; None where it can."""
+        return self.lacks_change(0) if self.invariants else f"{self.problem!r} conserves nothing that is declared"
+
+    def lacks_change(self, index: int) -> str | None:
         """Why no change of an invariant can be told; None where it can."""
-        if self.invariant is None:
-            return f"{self.problem!r} conserves nothing that is declared"
-        if not self._level[1] > 0:
-            return f"the change of its {self.invariant.name} has no scale: {self.problem!r} starts at zero"
-        return None
+        if self._levels[index][1] > 0:
+            return None
+        return f"the change of its {self.invariants[index].name} has no scale: {self.problem!r} starts at zero"
 
     @cached_property
-    def _level(self) -> tuple[float, float]:
-        """The invariant at the start, and what its change is divided by."""
-        one = self.problem.invariants[0]
-        level = self._value(one.value, self.start)
-        return level, abs(level if one.scale == "start" else self._value(one.scale, self.start))
+    def _levels(self) -> list[tuple[float, float]]:
+        """Each invariant at the start, and what its change is divided by."""
+        found = []
+        for one in self.invariants:
+            level = self._value(one.value, self.start)
+            found.append((level, abs(level if one.scale == "start" else self._value(one.scale, self.start))))
+        return found
 
     def _value(self, name: str, y: Any) -> Any:
         return getattr(self.problem, name)(NUMPY, list(y), self._parameters)
@@ -335,8 +339,12 @@ class Scene:
 
         Of an energy above rest that is (E - E0)/(E0 - Emin).
         """
-        level, scale = self._level
-        found: np.ndarray = np.asarray(self._value(self.problem.invariants[0].value, y.T)) / scale - level / scale
+        return self.change(0, y)
+
+    def change(self, index: int, y: np.ndarray) -> np.ndarray:
+        """The same of any invariant."""
+        level, scale = self._levels[index]
+        found: np.ndarray = np.asarray(self._value(self.invariants[index].value, y.T)) / scale - level / scale
         return found
 
 

@@ -88,7 +88,7 @@ def _answer(line: _Line, request: dict[str, Any]) -> dict[str, Any]:
         step = loaded(options["step"])
         line.say({"stage": "loaded"})
 
-        from compare.claims import show
+        from compare.claims import exchange, show
         from compare.claims.checking import check
         from compare.show import render
 
@@ -101,7 +101,11 @@ def _answer(line: _Line, request: dict[str, Any]) -> dict[str, Any]:
             raise  # a fault of the judge's own, of which the traceback says most
         name = options["step"].rpartition(":")[2]
         return {"left": f"{name} raised {type(error).__name__}"}
-    return {"text": render.render(show.page(found), request["form"]), "code": EXIT_CODES[found.claims_hold]}
+    if request["form"] in exchange.WRITERS:
+        text = exchange.WRITERS[request["form"]](found, exchange.place_of(step))
+    else:
+        text = render.render(show.page(found), request["form"])
+    return {"text": text, "code": EXIT_CODES[found.claims_hold]}
 
 
 def _problem(asked: dict[str, Any] | None) -> dict[str, Any]:

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 __all__ = ["add_options", "options"]
 
-FORMATS = ("text", "json")
+FORMATS = ("text", "json", "junit", "sarif")
 FORMS = ("step", "timed", "separable", "integrator")
 
 
@@ -26,8 +26,10 @@ def add_options(parser: argparse.ArgumentParser, families: Sequence[Family]) -> 
     """Add them to a parser, the inputs of the families among them."""
     parser.add_argument("step", metavar="MODULE:STEP", help="the function, in a module or in FILE.py:STEP")
     parser.add_argument("--order", metavar="P", help="claim this order")
+    parser.add_argument("--backward", action="store_true", help="claim this order for negative steps too")
     parser.add_argument("--symplectic", action="store_true", help="claim that it is symplectic")
     parser.add_argument("--reversible", action="store_true", help="claim that it is reversible")
+    parser.add_argument("--conserves", action="store_true", help="claim that it keeps every invariant")
     parser.add_argument(
         "--form",
         type=one_of("form", FORMS),
@@ -42,7 +44,7 @@ def add_options(parser: argparse.ArgumentParser, families: Sequence[Family]) -> 
     inputs_offered(families, parser)
     parser.add_argument("--exact", action="store_true", help="take numbers as written, not as doubles")
     parser.add_argument("--seconds", metavar="S", help="give up after so long (default 60)")
-    parser.add_argument("--format", type=one_of("format", FORMATS), default="text", help="text (default) or json")
+    parser.add_argument("--format", type=one_of("format", FORMATS), default="text", help=", ".join(FORMATS))
 
 
 def options(known: argparse.Namespace, families: Sequence[Family]) -> dict[str, Any]:
@@ -50,8 +52,10 @@ def options(known: argparse.Namespace, families: Sequence[Family]) -> dict[str, 
     given: dict[str, Any] = {
         "step": known.step,
         "order": None if known.order is None else _positive("order", known.order),
+        "backward": known.backward or None,
         "symplectic": known.symplectic or None,
         "reversible": known.reversible or None,
+        "conserves": known.conserves or None,
         "form": known.form,
     }
     if known.problem is not None:

@@ -3,13 +3,43 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 from compare.claims.findings import Findings
 
-__all__ = ["Check"]
+if TYPE_CHECKING:
+    from compare.claims.defects import Defect
+    from compare.claims.energy import Energy
+    from compare.claims.findings import Standing
+
+__all__ = ["Check", "Verdict"]
+
+STANDINGS: dict[Standing, str] = {"holds": "PASS", "fails": "FAIL", "open": "NOT ESTABLISHED"}
 
 MORE = 0.4
 """An interval so far above a claim is more than claimed."""
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """On one claim.
+
+    Attributes:
+        claim: its name: "order", "backward", "symplectic", "reversible" or "conserves".
+        words: what is claimed, such as "order 4".
+        standing: "PASS", "FAIL" or "NOT ESTABLISHED".
+        measured: what was measured, with its interval or its step.
+        causes: what explains a failure, or would decide what is not established; empty where nothing is known.
+    """
+
+    claim: str
+    words: str
+    standing: str
+    measured: str
+    causes: tuple[str, ...] = ()
+
+    def __str__(self) -> str:
+        return f"{self.standing}  {self.words}: {'; '.join([self.measured, *self.causes])}"
 
 
 @dataclass(frozen=True)
@@ -17,21 +47,57 @@ class Check(Findings):
     """The findings, in words."""
 
     @property
+    def verdicts(self) -> tuple[Verdict, ...]:
+        """One for each claim that is made."""
+        return tuple(self._verdict(name, standing) for name, standing in self.standings.items())
+
+    def assert_holds(self) -> None:
+        """Nothing where every claim holds.
+
+        Raises:
+            AssertionError: one fails or is not established; it says the verdict of each that does not hold.
+            ValueError: nothing is claimed.
+        """
+        if not self.standings:
+            raise ValueError(
+                f"nothing is claimed of {self.name}; an order, symplectic, reversible or conserves is accepted."
+            )
+        told = [f"{self.name} on {self.problem}: {one}." for one in self.verdicts if one.standing != "PASS"]
+        if told:
+            raise AssertionError("\n".join(told))
+
+    def _verdict(self, name: str, standing: Standing) -> Verdict:
+        causes = () if standing == "holds" else tuple(why for of, why in self._reasons() if of in {None, name})
+        if name == "order":
+            return Verdict(
+                name, f"order {self.claims.order:g}", STANDINGS[standing], self._measured_order_words, causes
+            )
+        if name == "backward":
+            words = f"order {self.claims.order:g} for negative steps"
+            return Verdict(name, words, STANDINGS[standing], self._back_words, causes)
+        if name == "conserves":
+            told = "; ".join(self._energy_words())
+            return Verdict(name, "conservation of its invariants", STANDINGS[standing], told, causes)
+        defect = {"symplectic": self.symplecticity, "reversible": self.reversibility}[name]
+        return Verdict(name, name, STANDINGS[standing], _measured(defect), causes)
+
+    @property
     def verdict(self) -> str:
         """Everything in one line."""
-        return "; ".join([self._order_words(), *self._reasons(), *self._defect_words(), self._energy_words()])
+        reasons = [why for _, why in self._reasons()]
+        return "; ".join([self._order_words(), *reasons, *self._defect_words(), *self._energy_words()])
 
-    def _reasons(self) -> list[str]:
-        """What explains a claim that fails, or would decide one that is not established."""
-        parts = [] if self.hint is None else [self.hint]
+    def _reasons(self) -> list[tuple[str | None, str]]:
+        """What explains that a claim fails, or would decide it: of which claim, None of all, and the words."""
+        parts: list[tuple[str | None, str]] = [] if self.hint is None else [("order", self.hint)]
         if not self.consistent:
-            parts.append(f"not consistent: {self._why_inconsistent}")
+            parts.append((None, f"not consistent: {self._why_inconsistent}"))
         if self.heading.consistent and self.heading.backward == "wrong":
-            parts.append("wrong for h < 0: a step back does not go back along f as one forward goes along it")
+            parts.append((None, "wrong for h < 0: a step back does not go back along f as one forward goes along it"))
         elif self.heading.backward == "refused":
-            parts.append("takes no step with h < 0")
+            parts.append((None, "takes no step with h < 0"))
         if self.order_standing == "open":
-            parts.append(self._what_would_decide)
+            parts.append(("order", self._what_would_decide))
         return parts
 
     @property
@@ -59,7 +125,11 @@ class Check(Findings):
         if self.order.kind == "own steps":
             return f"chooses its own steps, error {self.order.cells[-1].error:.0e}"
         claimed = "" if self.claims.order is None else f"claims order {self.claims.order:g}, "
-        return claimed + (self._other_order_words() or self._slope_words())
+        return claimed + self._measured_order_words
+
+    @property
+    def _measured_order_words(self) -> str:
+        return self._other_order_words() or self._slope_words()
 
     def _other_order_words(self) -> str | None:
         """Of an order that no slope tells."""
@@ -90,6 +160,18 @@ class Check(Findings):
         return words
 
     @property
+    def _back_words(self) -> str:
+        """What is known of the order with h < 0."""
+        back = self.back
+        if back is None:
+            return "not measured: it takes no step back, or the motion has no past"
+        if back.value is None:
+            return "error at rounding with every step" if back.kind == "floor" else "no order is to be seen"
+        if back.kind == "flat":
+            return f"does not converge: the error stays at {back.cells[-1].error:.0e}"
+        return f"measured {back.value:.2f} ± {back.half_width:.2f}"
+
+    @property
     def _more_words(self) -> str:
         """Where the order is beyond the one that is claimed."""
         order, exact, claim = self.order, self.order_by_series, self.claims.order
@@ -111,7 +193,7 @@ class Check(Findings):
             ("symplectic", self.claims.symplectic, self.symplecticity),
             ("reversible", self.claims.reversible, self.reversibility),
         ):
-            measured = f"defect {defect.size:.0e} at h = {defect.h:g}"
+            measured = _measured(defect)
             if defect.lacks:
                 words.append(f"{f'claims to be {what}, ' if claimed else f'{what} '}not applicable: {defect.lacks}")
             elif defect.none:
@@ -126,14 +208,21 @@ class Check(Findings):
                 words.append(f"{f'claims to be {what}, ' if claimed else ''}not {what} ({measured})")
         return words
 
-    def _energy_words(self) -> str:
-        found = self.energy
-        name, at = found.invariant, f"at h = {found.h:g}"
-        return {
-            "rounding": f"{name} kept to rounding (error {found.largest:.0e} {at})",
-            "bounded": f"{name} bounded (error {found.largest:.0e} {at})",
-            "drifting": f"{name} drifts by {found.slope:.0e} per {found.per} {at}",
-            "lost": f"{name} not kept {at}",
-            "short": f"error of the {name} {found.largest:.0e} {at}, bounded or not: the motion ends too soon",
-            "none": f"{name} not applicable: {found.lacks}",
-        }[found.behaviour]
+    def _energy_words(self) -> list[str]:
+        return [_kept(one) for one in (self.energy, *self.others)]
+
+
+def _kept(found: Energy) -> str:
+    name, at = found.invariant, f"at h = {found.h:g}"
+    return {
+        "rounding": f"{name} kept to rounding (error {found.largest:.0e} {at})",
+        "bounded": f"{name} bounded (error {found.largest:.0e} {at})",
+        "drifting": f"{name} drifts by {found.slope:.0e} per {found.per} {at}",
+        "lost": f"{name} not kept {at}",
+        "short": f"error of the {name} {found.largest:.0e} {at}, bounded or not: the motion ends too soon",
+        "none": f"{name} not applicable: {found.lacks}",
+    }[found.behaviour]
+
+
+def _measured(defect: Defect) -> str:
+    return f"not applicable: {defect.lacks}" if defect.lacks else f"defect {defect.size:.0e} at h = {defect.h:g}"

@@ -10,6 +10,7 @@ from compare.show.text_table import Column, Grid, Table
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
+    from compare.claims.energy import Energy
     from compare.claims.order import Order
     from compare.claims.record import Check
     from compare.show.page import Block
@@ -31,12 +32,16 @@ def page(found: Check) -> Page:
 
 
 def _blocks(found: Check) -> Iterator[Block]:
+    if found.verdicts:
+        yield Sentence("\n".join(f"{one}." for one in found.verdicts))
     yield Sentence(f"{found.name}: {found.verdict}.")
     run = "" if found.engine == "compiled" else "run "
     yield Sentence(f"{found.name}, {run}{RUN[found.engine]}, on {found.problem}.")
     yield _table("errors", f"Errors{_until(found.still)}", found.still)
     if found.swinging is not None:
         yield _table("swinging", "Errors seen from a swinging frame, where the time enters", found.swinging)
+    if found.back is not None:
+        yield _table("back", "Errors with negative steps", found.back)
 
 
 def _until(order: Order) -> str:
@@ -76,21 +81,18 @@ def _data(found: Check) -> Lines:
         "consistent": found.consistent,
         "step_back": found.heading.backward,
         "order_still": found.still.value,
+        "order_of_negative_steps": None if found.back is None else found.back.value,
         "order_where_time_enters": None if found.swinging is None else found.swinging.value,
         "symplecticity_defect": found.symplecticity.size,
         "symplectic": None if found.symplecticity.lacks else found.symplecticity.none,
         "reversibility_defect": found.reversibility.size,
         "reversible": None if found.reversibility.lacks else found.reversibility.none,
         "defects_at_h": {"symplecticity": found.symplecticity.h, "reversibility": found.reversibility.h},
-        "energy": {
-            "behaviour": found.energy.behaviour,
-            "largest_error": found.energy.largest,
-            "slope_per_second": found.energy.slope,
-            "h": found.energy.h,
-            "steps": found.energy.steps,
-        },
+        "energy": _kept(found.energy),
+        "other_invariants": {one.invariant: _kept(one) for one in found.others},
         "verdict": found.verdict,
         "claims_hold": found.claims_hold,
+        "verdicts": [fields_of(one) for one in found.verdicts],
         "errors": [fields_of(cell, "noise") for cell in found.still.cells],
     }
     lacks = {
@@ -101,3 +103,13 @@ def _data(found: Check) -> Lines:
     if lacks := {name: why for name, why in lacks.items() if why}:
         answer["not_applicable"] = lacks
     return Lines(in_lines(answer).entries)
+
+
+def _kept(one: Energy) -> dict[str, Any]:
+    return {
+        "behaviour": one.behaviour,
+        "largest_error": one.largest,
+        "slope_per_second": one.slope,
+        "h": one.h,
+        "steps": one.steps,
+    }

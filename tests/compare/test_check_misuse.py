@@ -214,7 +214,8 @@ def test_the_exit_code_says_whether_the_claims_hold(words, code, capsys):
 def test_the_text_begins_with_the_verdict_and_shows_the_errors(capsys):
     assert main(["check", f"{SLIPS}:forest_ruth_of_order_two", "--order", "4"]) == 1
     lines = capsys.readouterr().out.splitlines()
-    assert lines[0].startswith("forest_ruth_of_order_two: claims order 4, measured 2.00 ± 0.0")
+    assert lines[0].startswith("FAIL  order 4: measured 2.00 ± 0.0")
+    assert lines[2].startswith("forest_ruth_of_order_two: claims order 4, measured 2.00 ± 0.0")
     assert sum(line.endswith("*") for line in lines) >= 4
 
 

@@ -257,7 +257,7 @@ def test_what_is_lost_is_told_of_what_was_proven_and_by_components_of_what_is_sm
     for known in (proven_flow._flows, proven_flow._losses):
         known.cache_clear()
     assert proven_flow.lost(problem, Fraction(4)) == 0
-    proven_flow.see(problem, Fraction(16), 96)
+    proven_flow.see(problem, Fraction(16), lambda: 96)
     assert 0 < proven_flow.lost(problem, Fraction(4)) <= proven_flow.lost(problem, Fraction(400)) < 4000
     near = Fraction(1, 2**20)  # y is about t there, and x about one
 
