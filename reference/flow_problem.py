@@ -236,8 +236,8 @@ class FlowProblem(Problem):
             return super().by_route(route, row, arguments, digits)
         if is_known(self.kind) and not {name for name, _ in self.given}.issubset(self.known_for):
             return None
-        arguments, bits = self.arguments(row, arguments), int(digits * 3.33) + KNOWN_BITS
-        return quadrature.rows(lambda: _Known(self, bits), row, arguments, bits)
+        arguments, bits = self.arguments(row, arguments), int(digits * 3.33)
+        return quadrature.rows(lambda: _Known(self, bits), row, arguments, bits + KNOWN_BITS)
 
     def enclosure_form(self) -> Solution:
         """The proven flow, with its crossings and its derivatives."""
@@ -255,14 +255,8 @@ class FlowProblem(Problem):
             return FlowReading(self, arguments, beside=TRANSITION_BITS)
         if not row.startswith(SENSITIVITY):
             return super().flow_reading(row, arguments, component)
-        by, size = row.removeprefix(SENSITIVITY), len(self.state_names)
-
-        def slopes(time: Fraction, state: list[arb]) -> list[arb]:
-            exact = self.exact_row(row, time) or [None] * size
-            places = range(size) if component is None else [component]
-            return [state[size + place] for place in places if exact[place] is None]
-
-        return FlowReading(self.sensitivity(by), arguments, slopes)
+        slopes = self.undecided(row, component, len(self.state_names))
+        return FlowReading(self.sensitivity(row.removeprefix(SENSITIVITY)), arguments, slopes)
 
     def _invariants(self, indices: Sequence[int], state: Sequence[arb]) -> list[arb]:
         return [BALL.number(Fraction(0)) + self.conserved(index, BALL, state) for index in indices]
@@ -344,7 +338,7 @@ class _Known:
         if is_known(problem.kind):
             state = problem.known_state(MPMATH.number(problem.end))
             return [(problem.conserved(index, MPMATH, state),) for index in arguments]
-        bits = self._bits - KNOWN_BITS + READ_BITS
+        bits = self._bits + READ_BITS
         see(problem, problem.end, lambda: bits)
         bits += problem.flow_reading(row, arguments).seen(1) or lost(problem, problem.end)
         with ctx.workprec(bits):

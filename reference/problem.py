@@ -19,7 +19,7 @@ from reference.certified import Certified
 from reference.names import unknown
 from reference.once import cached_property
 from reference.routes import enclosure, proven_flow, quadrature, taylor
-from reference.routes.working_bits import FlowReading, OfClosedForm, OfFlow, latest
+from reference.routes.working_bits import FlowReading, OfClosedForm, OfFlow
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
@@ -351,7 +351,7 @@ class Problem:
 
         Of itself those of the latest time.
         """
-        return int(latest(arguments)).bit_length() if self.has_closed_form else self.working.bits("state", arguments)
+        return int(_latest(arguments)).bit_length() if self.has_closed_form else self.working.bits("state", arguments)
 
     @property
     def working(self) -> WorkingBits:
@@ -365,14 +365,22 @@ class Problem:
         """
         times = [argument for argument in arguments if isinstance(argument, Fraction)]
         if row != "state":
-            return FlowReading(self, [], until=latest(times))
+            return FlowReading(self, [], until=_latest(times))
+
+        return FlowReading(self, times, self.undecided(row, component))
+
+    def undecided(
+        self, row: str, component: int | None, first: int = 0
+    ) -> Callable[[Fraction, list[arb]], Sequence[arb]]:
+        """Reads a row, from the ``first`` component of a state on, but for what is exactly rational at a time."""
 
         def values(time: Fraction, state: list[arb]) -> list[arb]:
-            exact = self.exact_row(row, time) or [None] * len(state)
-            places = range(len(state)) if component is None else [component]
-            return [state[place] for place in places if exact[place] is None]
+            asked = state[first : first + len(self.state_names)]
+            exact = self.exact_row(row, time) or [None] * len(asked)
+            places = range(len(asked)) if component is None else [component]
+            return [asked[place] for place in places if exact[place] is None]
 
-        return FlowReading(self, times, values)
+        return values
 
     def by_route(
         self, route: str, row: str, arguments: Sequence[Any], digits: int
@@ -602,6 +610,11 @@ class HamiltonianProblem(Problem):
         size = len(positions)
         momenta = [m.number(value) for value in self.start[size:]]
         return tuple(-slope for slope in self._slopes(m, t, positions, momenta, p)[:size])
+
+
+def _latest(arguments: Sequence[Any]) -> Fraction:
+    """The time among them that is farthest from the start."""
+    return max((abs(t) for t in arguments if isinstance(t, Fraction)), default=Fraction(0))
 
 
 def _read_at_start(problem: Problem, value: str, m: Any) -> Any:

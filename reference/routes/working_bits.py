@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
     from flint import arb
 
-__all__ = ["FlowReading", "OfClosedForm", "OfFlow", "latest"]
+__all__ = ["FlowReading", "OfClosedForm", "OfFlow"]
 
 GUESSED, SEEN = 30, 38
 """Of the bits that guard every decision so many are no more needed where the loss is guessed, and where it was seen."""
@@ -162,8 +162,3 @@ class OfFlow:
     def _reading(self, row: str, arguments: Sequence[Any], component: int | None = None) -> FlowReading:
         found: FlowReading = self._problem.flow_reading(row, arguments, component)
         return found
-
-
-def latest(arguments: Sequence[Any]) -> Fraction:
-    """The time among them that is farthest from the start."""
-    return max((abs(t) for t in arguments if isinstance(t, Fraction)), default=Fraction(0))
