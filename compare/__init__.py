@@ -6,18 +6,39 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from compare.claims.asserting import assert_conserves, assert_order, assert_reversible, assert_symplectic
+    from compare.claims.asserting import (
+        assert_conserves,
+        assert_dense,
+        assert_estimate,
+        assert_order,
+        assert_reversible,
+        assert_stiff_order,
+        assert_symplectic,
+        assert_tolerance,
+    )
     from compare.claims.checking import check
+    from compare.claims.events import assert_events, check_events
+    from compare.claims.gradients import assert_gradients, check_gradients
+    from compare.claims.process import Process
     from compare.files.score import score
     from compare.methods.step_function import method
     from compare.scored import energy_drift, error_vs_n
 
 __all__ = [
+    "Process",
     "assert_conserves",
+    "assert_dense",
+    "assert_estimate",
+    "assert_events",
+    "assert_gradients",
     "assert_order",
     "assert_reversible",
+    "assert_stiff_order",
     "assert_symplectic",
+    "assert_tolerance",
     "check",
+    "check_events",
+    "check_gradients",
     "energy_drift",
     "error_vs_n",
     "method",
@@ -25,11 +46,20 @@ __all__ = [
 ]
 
 _HOMES = {
+    "Process": "compare.claims.process",
     "assert_conserves": "compare.claims.asserting",
+    "assert_dense": "compare.claims.asserting",
+    "assert_estimate": "compare.claims.asserting",
+    "assert_events": "compare.claims.events",
+    "assert_gradients": "compare.claims.gradients",
     "assert_order": "compare.claims.asserting",
     "assert_reversible": "compare.claims.asserting",
+    "assert_stiff_order": "compare.claims.asserting",
     "assert_symplectic": "compare.claims.asserting",
+    "assert_tolerance": "compare.claims.asserting",
     "check": "compare.claims.checking",
+    "check_events": "compare.claims.events",
+    "check_gradients": "compare.claims.gradients",
     "energy_drift": "compare.scored",
     "error_vs_n": "compare.scored",
     "method": "compare.methods.step_function",

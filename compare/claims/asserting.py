@@ -17,7 +17,16 @@ if TYPE_CHECKING:
 
     from compare.claims.record import Check
 
-__all__ = ["assert_conserves", "assert_order", "assert_reversible", "assert_symplectic"]
+__all__ = [
+    "assert_conserves",
+    "assert_dense",
+    "assert_estimate",
+    "assert_order",
+    "assert_reversible",
+    "assert_stiff_order",
+    "assert_symplectic",
+    "assert_tolerance",
+]
 
 
 def assert_order(step: Callable[..., Any], order: float, **how: Any) -> Check:
@@ -58,6 +67,46 @@ def assert_conserves(step: Callable[..., Any], **how: Any) -> Check:
         TypeError, ValueError: as ``compare.check``.
     """
     return _held(check(step, conserves=True, **how))
+
+
+def assert_dense(step: Callable[..., Any], order: float, interpolant: Callable[..., Any], **how: Any) -> Check:
+    """Return the check of a step whose interpolant (f, y, h, theta) is of an order: it errs by O(h^(order + 1)).
+
+    Raises:
+        AssertionError: it is not, or that is not established.
+        TypeError, ValueError: as ``compare.check``.
+    """
+    return _held(check(step, dense=order, interpolant=interpolant, **how))
+
+
+def assert_estimate(step: Callable[..., Any], order: float, **how: Any) -> Check:
+    """Return the check of a step that gives (y, error), the error being that of an embedded method of an order.
+
+    Raises:
+        AssertionError: it is not, or that is not established.
+        TypeError, ValueError: as ``compare.check``.
+    """
+    return _held(check(step, estimate=order, **how))
+
+
+def assert_tolerance(integrate: Callable[..., Any], power: float = 1, **how: Any) -> Check:
+    """Return the check of an integrator whose error goes with a power of its relative tolerance.
+
+    Raises:
+        AssertionError: it does not, or that is not established.
+        TypeError, ValueError: as ``compare.check``.
+    """
+    return _held(check(integrate, tolerance=power, **how))
+
+
+def assert_stiff_order(step: Callable[..., Any], order: float, **how: Any) -> Check:
+    """Return the check of a step of which an order is left on Prothero and Robinson's stiff equation.
+
+    Raises:
+        AssertionError: it is not, or that is not established.
+        TypeError, ValueError: as ``compare.check``.
+    """
+    return _held(check(step, stiff=order, **how))
 
 
 def _held(found: Check) -> Check:

@@ -11,7 +11,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from compare.claims.candidate import Candidate, form_of
+from compare.claims import local, stiffness, tolerances
+from compare.claims.adapters import adapted, with_arguments
+from compare.claims.candidate import Candidate
 from compare.claims.consistency import advance_of_a_constant_slope, iterates, uses
 from compare.claims.deadline import TimeOut, deadline
 from compare.claims.defects import Evidence, reversibility, symplecticity
@@ -22,19 +24,21 @@ from compare.claims.frames import Exhausted, Frame, MisuseError, Scene
 from compare.claims.half_step import half_step
 from compare.claims.heading import UNTRIED, Heading, heading
 from compare.claims.limits import SECONDS
+from compare.claims.local import new_state
+from compare.claims.motion import motion
 from compare.claims.order import ladder, measured
 from compare.claims.powers import lower, powers
 from compare.claims.record import Check
+from compare.claims.tolerances import RTOLS, with_tolerance
 from reference.arithmetic.underflow import require_gradual
-from reference.consistency import consistent
-from reference.problem import Problem
-from reference.problems.families import usual_problem
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
+    from collections.abc import Callable, Iterator, Sequence
 
     from compare.claims.engine import Marcher
     from compare.claims.order import Order
+    from compare.claims.verdicts import Verdict
+    from reference.problem import Problem
 
 __all__ = ["check"]
 
@@ -46,12 +50,18 @@ CALLS_ON_ARRAYS = 40_000
 """The same on arrays, where all lanes share a call."""
 FRAME = 0.5, 0.7
 """Amplitude of the swinging frame in rad, or over the size of a motion, and its frequency over the motion's rate."""
+MARCH_SECONDS, TIMED_STEPS = 2.0, 16
+"""Seconds for the marches of one scene, where a step is slow, and steps by which that is seen."""
 MOST_STEPS = 4096
 LEAST_STEPS = 48
 LANES_OF_A_LADDER = 7
 """Steps of all marches of a ladder, from two starts, over those of its longest."""
 TRIAL_TIMES = 9
 MOST_ORDER = 100
+ORDERS = ("order", "dense", "estimate", "tolerance", "stiff")
+"""Claims that are a number."""
+USUAL_RTOL = 1e-6
+"""The tolerance with which the rest is measured where one is claimed."""
 ALMOST_TWO = 1.5
 """An order below this is one, and a claim from it on is of two or more."""
 
@@ -63,6 +73,11 @@ def check(
     reversible: bool | None = None,
     backward: bool | None = None,
     conserves: bool | None = None,
+    dense: float | None = None,
+    interpolant: Callable[..., Any] | None = None,
+    estimate: float | None = None,
+    tolerance: float | None = None,
+    stiff: float | None = None,
     problem: Problem | None = None,
     form: str | None = None,
     seconds: float = SECONDS,
@@ -78,13 +93,24 @@ def check(
         step: ``step(f, y, h)`` gives the state a step later; ``step(f, t, y, h)`` if it takes the time;
             ``step(q, p, force, h)`` gives (q, p); ``integrate(f, y0, t)`` the states at the times of a grid.  ``f`` is
             called as f(y) or f(t, y), and gives an array of y's shape, components in the order of the problem's state.
+            A class, a generator or a solver over a span of time is called as ``compare.claims.adapters`` says, and
+            ``step(y, h)`` has the equation of the problem built in.
         order: the order that is claimed, or None.
         symplectic: whether it is claimed to be symplectic.
         reversible: whether it is claimed to be reversible.
         backward: whether the order is claimed for negative steps too.
         conserves: whether it is claimed to keep every invariant that the problem declares, bounded or to rounding.
+        dense: the order that is claimed of the states between steps, which ``interpolant`` gives.
+        interpolant: ``interpolant(f, y, h, theta)``, with the time if the step takes it: the state after the part theta
+            of a step.
+        estimate: the order that is claimed of the embedded method whose error a step estimates: it then gives the new
+            state and the estimate, as a tuple.
+        tolerance: the power of the relative tolerance with which the error of an integrator that chooses its own steps
+            is claimed to go: 1 in proportion.  It takes the tolerance as rtol, with atol or without.
+        stiff: the order that is claimed to be left on Prothero and Robinson's stiff equation.
         problem: what it is tried on, any motion in time; the pendulum of 1 m released at 1 rad if None.
-        form: "step", "timed", "separable" or "integrator", where the arguments' names do not say it.
+        form: "step", "timed", "separable", "gradient", "integrator", "own", "own-timed" or "own-separable", where the
+            arguments' names do not say it.
         seconds: time after which the check is given up.
 
     Raises:
@@ -94,17 +120,31 @@ def check(
             curve, does not split as a separable step needs it, or depends on a time that the step does not give.
     """
     require_gradual("a check")
-    scene = Scene(usual_problem() if problem is None else _motion(problem))
-    if order is not None and not _is_order(order):
-        raise ValueError(f"order is {order!r}; a positive number below {MOST_ORDER} is accepted.")
-    if backward and order is None:
-        raise ValueError("an order for negative steps is claimed without an order; both are accepted.")
-    candidate = Candidate(step, form_of(step, form), _name(step))
+    scene = Scene(motion(problem))
+    claims = _claims(
+        order=order,
+        symplectic=symplectic,
+        reversible=reversible,
+        conserves=conserves,
+        backward=backward,
+        dense=dense,
+        estimate=estimate,
+        tolerance=tolerance,
+        stiff=stiff,
+    )
+    if (dense is None) != (interpolant is None):
+        raise ValueError("dense output is claimed by its order and an interpolant (f, y, h, theta); both are accepted.")
+    candidate = _candidate(step, form, claims)
+    if candidate.form.own and problem is None:
+        raise ValueError(
+            f"{candidate.name} takes no f, so that nobody knows of which equation it is a step; a problem is accepted "
+            "besides, or a step (f, y, h)."
+        )
     candidate.hold(scene)
     try:
         with deadline(seconds):
-            claims = Claims(None if order is None else float(order), symplectic, reversible, conserves, backward)
-            return _checked(candidate, claims, scene, time.monotonic() + seconds * PURSUED)
+            found = _checked(candidate, claims, scene, time.monotonic() + seconds * PURSUED)
+            return replace(found, more=tuple(_beside(step, candidate, claims, scene, interpolant, form)))
     except Exhausted as error:
         raise MisuseError(f"{candidate.name} {error} in one step; it does not come to an end.") from None
     except TimeOut:
@@ -113,24 +153,60 @@ def check(
         ) from None
 
 
-def _motion(problem: Any) -> Problem:
-    """A problem whose state at a time is proven.
+def _claims(**claimed: Any) -> Claims:
+    """What is claimed.
 
     Raises:
-        TypeError: it is no problem.
-        ValueError: it is a curve, or has no such row.
+        ValueError: an order is no positive number, or is claimed for negative steps alone.
     """
-    if not isinstance(problem, Problem):
-        raise TypeError(
-            f"problem is {problem!r}; a problem with positions and momenta, such as Pendulum(1.0), is accepted."
-        )
-    accepted = "a motion in time, such as Pendulum(1.0), is accepted."
-    if problem.space.along is not None:
-        raise ValueError(f"problem is {problem!r}, a curve along {problem.space.along}; {accepted}")
-    if not problem.serves("state") or problem.row("state").over in {"once", "index"}:
-        raise ValueError(f"problem is {problem!r}, without a state at a time; {accepted}")
-    consistent(problem)
-    return problem
+    for name in ORDERS:
+        if claimed[name] is not None and not _is_order(claimed[name]):
+            raise ValueError(f"{name} is {claimed[name]!r}; a positive number below {MOST_ORDER} is accepted.")
+    if claimed["backward"] and claimed["order"] is None:
+        raise ValueError("an order for negative steps is claimed without an order; both are accepted.")
+    orders: dict[str, Any] = {name: float(claimed[name]) for name in ORDERS if claimed[name] is not None}
+    return Claims(**{**claimed, **orders})
+
+
+def _candidate(step: Callable[..., Any], form: str | None, claims: Claims) -> Candidate:
+    """The user's function, and how it is called.
+
+    Raises:
+        TypeError, ValueError: it cannot be called, or not so.
+        MisuseError: what is claimed is of a single step, and it has none, or gives it in parts.
+    """
+    if claims.tolerance is not None:
+        step = with_arguments(step, with_tolerance(step, USUAL_RTOL))
+    function, called = adapted(step if claims.estimate is None else new_state(step), form)
+    candidate = Candidate(function, called, _name(step))
+    if claims.tolerance is not None and not called.whole:
+        raise MisuseError(f"a tolerance is claimed of {candidate.name}; that of (f, y0, t, rtol) is accepted.")
+    if claims.dense is not None and called.whole:
+        raise MisuseError(f"dense output is claimed of {candidate.name}; that of a step (f, y, h) is accepted.")
+    if claims.estimate is not None and (called.whole or called.separable):
+        raise MisuseError(f"an error estimate is claimed of {candidate.name}; that of a step (f, y, h) is accepted.")
+    return candidate
+
+
+def _beside(
+    step: Callable[..., Any],
+    candidate: Candidate,
+    claims: Claims,
+    scene: Scene,
+    interpolant: Callable[..., Any] | None,
+    form: str | None,
+) -> Iterator[Verdict]:
+    """Verdicts on what a step gives beside the new state."""
+    if claims.dense is not None and interpolant is not None:
+        yield local.dense(candidate, scene, scene.step, interpolant, claims.dense)
+    if claims.estimate is not None:
+        yield local.estimate(step, candidate, scene, scene.step, claims.estimate)
+    if claims.stiff is not None:
+        yield stiffness.stiff(candidate, claims.stiff)
+    if claims.tolerance is not None:
+        tighter = (with_arguments(step, with_tolerance(step, rtol)) for rtol in RTOLS)
+        candidates = (Candidate(*adapted(one, form), candidate.name) for one in tighter)
+        yield tolerances.judged(candidates, scene, claims.tolerance)
 
 
 def _is_order(order: Any) -> bool:
@@ -144,7 +220,8 @@ def _name(step: Callable[..., Any]) -> str:
 def _checked(candidate: Candidate, claims: Claims, scene: Scene, until: float) -> Check:
     h = scene.step
     marcher, calls, timed, name = _marcher(candidate, scene, h)
-    counts = ladder(_most_steps(marcher, calls))
+    most = _most_steps(marcher, calls)
+    counts = ladder(most)
     still = measured(marcher, scene.span, counts, until)
     _hold_measurable(candidate.name, still, claims)
     swinging = None
@@ -155,13 +232,13 @@ def _checked(candidate: Candidate, claims: Claims, scene: Scene, until: float) -
     else:
         series = None if marcher.whole else powers(candidate, scene, h)
     iterating = iterates(candidate, marcher, h)
-    energy, *others = kept(marcher, h, _most_steps(marcher, calls))
+    energy, *others = kept(marcher, h, most)
     evidence = Evidence(
         possible=name != "compiled" and still.kind != "own steps",
         iterates=iterating,
         bounded=energy.bounded,
     )
-    explicit = not (marcher.whole or iterating)
+    explicit = not (marcher.whole or iterating or candidate.form.own)
     headed = _heading(candidate, marcher, h)
     back = _back(marcher, counts, until) if claims.backward and headed.backward == "right" else None
     found = Check(
@@ -213,7 +290,7 @@ def _hold_measurable(name: str, found: Order, claims: Claims) -> None:
 
 
 def _heading(candidate: Candidate, marcher: Marcher, h: float) -> Heading:
-    """Of a step; of a whole integrator only whether it makes use of f is known."""
+    """Of a step; of a whole integrator only whether it makes use of f is known, if it is given one."""
     if marcher.whole:
         return replace(UNTRIED, uses=uses(candidate, marcher.scene, h))
     return heading(candidate, marcher.scene, h)
@@ -255,9 +332,22 @@ def _trial(candidate: Candidate, scene: Scene, h: float) -> tuple[float, bool]:
 
 
 def _most_steps(marcher: Marcher, calls: float) -> int:
-    """The largest number of steps that the budget of calls allows."""
+    """The largest number of steps that the budgets of calls and of seconds allow."""
     if isinstance(marcher, Steps) and isinstance(marcher.engine, Traced):
         return MOST_STEPS
-    on_arrays = isinstance(marcher, Steps) and not isinstance(marcher.engine, Lanes)
-    allowed = CALLS_ON_ARRAYS if on_arrays else CALLS / LANES_OF_A_LADDER
-    return int(min(max(allowed / max(calls, 1.0), LEAST_STEPS), MOST_STEPS))
+    together = isinstance(marcher, Steps) and not isinstance(marcher.engine, Lanes)
+    allowed = CALLS_ON_ARRAYS if together else CALLS / LANES_OF_A_LADDER
+    steps = int(min(max(allowed / max(calls, 1.0), LEAST_STEPS), MOST_STEPS))
+    within = MARCH_SECONDS / _seconds_of_a_step(marcher) / (1 if together else LANES_OF_A_LADDER)
+    while steps >= 2 * LEAST_STEPS and steps > within:
+        steps //= 2
+    return steps
+
+
+def _seconds_of_a_step(marcher: Marcher) -> float:
+    """How long a step takes, once all is compiled."""
+    start, h, wanted = marcher.scene.start[:, None], np.array([marcher.scene.step]), [[TIMED_STEPS]]
+    marcher.states(start, h, wanted)
+    begun = time.perf_counter()
+    marcher.states(start, h, wanted)
+    return (time.perf_counter() - begun) / TIMED_STEPS

@@ -18,7 +18,7 @@ import threading
 import time
 from typing import IO, TYPE_CHECKING, Any, NamedTuple
 
-from compare.claims.inside import CLOSED
+from compare.claims.inside import CLOSED, name_of
 from compare.claims.limits import SECONDS
 
 if TYPE_CHECKING:
@@ -58,13 +58,13 @@ def contained(options: dict[str, Any], form: str) -> Answer:
     Raises:
         ContainedError: the check cannot be made, takes too long, or the step ended the process.
     """
-    seconds = float(options.get("seconds", SECONDS))
-    name = str(options["step"]).rpartition(":")[2]
+    seconds, whole = float(options.get("seconds", SECONDS)), options.get("process") or options["step"]
+    name = name_of(options)
     with _process({"options": options, "form": form}) as (process, messages):
         stages = (
             (None, ""),
-            (seconds, f"{options['step']} took more than {seconds:g} s to be imported"),
-            (max(seconds, SECONDS), f"{options['step']} keeps the judge from being imported"),
+            (seconds, f"{whole} took more than {seconds:g} s to be imported"),
+            (max(seconds, SECONDS), f"{whole} keeps the judge from being imported"),
             (seconds + GRACE, f"{name} took more than {seconds:g} s and had to be ended"),
         )
         found: dict[str, Any] = {}
@@ -91,8 +91,8 @@ def _how_it_ended(pid: int, name: str, late: str) -> str:
 
 def _no_verdict(options: dict[str, Any]) -> str:
     """Which claims were being tested."""
-    order = options.get("order")
-    claims = [] if order is None else [f"order {order:g}"]
+    numbers = ("order", "dense", "estimate", "stiff", "tolerance", "events", "gradients")
+    claims = [f"{name} {options[name]:g}" for name in numbers if options.get(name) is not None]
     claims += [claim for claim in ("backward", "symplectic", "reversible", "conserves") if options.get(claim)]
     return f", and there is no verdict on the claim {' and '.join(claims)}" if claims else ""
 

@@ -13,7 +13,7 @@ from reference.version import __version__
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from compare.claims.record import Check, Verdict
+    from compare.claims.verdicts import Judged, Verdict
 
 __all__ = ["WRITERS", "junit", "place_of", "sarif"]
 
@@ -25,6 +25,12 @@ RULES = {
     "symplectic": "A step keeps the symplectic form.",
     "backward": "The global error falls with that power of the step into the past too.",
     "conserves": "Every invariant that the problem declares is kept, bounded or to rounding.",
+    "dense": "A state between two steps errs by the power of the step that is claimed, and one more.",
+    "estimate": "An error estimate is the local error of a method of the order that is claimed.",
+    "tolerance": "The global error goes with the power of the tolerance that is claimed.",
+    "stiff": "The global error on a stiff equation falls with the power of the step that is claimed.",
+    "events": "Every event is found, once, and to the accuracy that is claimed.",
+    "gradients": "Derivatives by start, parameters and initial time have the accuracy that is claimed.",
     "reversible": "A step leads back to where it came from with the velocities turned round.",
 }
 
@@ -45,7 +51,7 @@ def place_of(function: Callable[..., Any]) -> Place | None:
     return (path.relative_to(here) if path.is_relative_to(here) else path).as_posix(), max(1, line)
 
 
-def junit(found: Check, place: Place | None = None) -> str:
+def junit(found: Judged, place: Place | None = None) -> str:
     """A test suite with a test case a claim; what is not established is a failure of the type of that name."""
     cases = found.verdicts
     missed = sum(one.standing != "PASS" for one in cases)
@@ -62,7 +68,7 @@ def junit(found: Check, place: Place | None = None) -> str:
     return ET.tostring(suites, encoding="unicode", xml_declaration=True) + "\n"
 
 
-def sarif(found: Check, place: Place | None = None) -> str:
+def sarif(found: Judged, place: Place | None = None) -> str:
     """A run with a result a claim: of the kind "pass", "fail" or "open"."""
     rules = [{"id": one.claim, "shortDescription": {"text": RULES[one.claim]}} for one in found.verdicts]
     driver: dict[str, Any] = {"name": "Horologium", "semanticVersion": __version__, "rules": rules}
@@ -75,7 +81,7 @@ def sarif(found: Check, place: Place | None = None) -> str:
     return json.dumps(log, indent=1, ensure_ascii=False) + "\n"
 
 
-def _result(found: Check, one: Verdict, place: Place | None) -> dict[str, object]:
+def _result(found: Judged, one: Verdict, place: Place | None) -> dict[str, object]:
     failed = one.standing == "FAIL"
     result: dict[str, object] = {
         "ruleId": one.claim,
@@ -90,8 +96,8 @@ def _result(found: Check, one: Verdict, place: Place | None) -> dict[str, object
     return result
 
 
-def _told(found: Check, one: Verdict) -> str:
+def _told(found: Judged, one: Verdict) -> str:
     return f"{found.name} on {found.problem}: {one}."
 
 
-WRITERS: dict[str, Callable[[Check, Place | None], str]] = {"junit": junit, "sarif": sarif}
+WRITERS: dict[str, Callable[[Judged, Place | None], str]] = {"junit": junit, "sarif": sarif}

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING
+
+from compare.claims.verdicts import ANSWERS
 
 if TYPE_CHECKING:
     from compare.claims.defects import Defect
@@ -11,6 +13,7 @@ if TYPE_CHECKING:
     from compare.claims.heading import Heading
     from compare.claims.order import Order
     from compare.claims.powers import Powers
+    from compare.claims.verdicts import Standing, Verdict
 
 __all__ = ["WIDEST", "Claims", "Findings"]
 
@@ -25,11 +28,6 @@ WIDEST = 0.3
 BUILT_IN = 0.05
 """A constant slope that is advanced so wrongly, where the motion is not, tells that a part of it is built in."""
 
-Standing = Literal["holds", "fails", "open"]
-
-
-ANSWERS: dict[Standing | None, bool | None] = {"holds": True, "fails": False, "open": None, None: None}
-
 
 @dataclass(frozen=True)
 class Claims:
@@ -40,6 +38,10 @@ class Claims:
     reversible: bool | None = None
     conserves: bool | None = None
     backward: bool | None = None
+    dense: float | None = None
+    estimate: float | None = None
+    tolerance: float | None = None
+    stiff: float | None = None
 
 
 @dataclass(frozen=True)
@@ -64,6 +66,7 @@ class Findings:
         hint: what would give a failing claim its order, where that is known.
         others: what the invariants beside the energy do over that march.
         back: the order with h < 0, into the past of that problem; None where it was not asked for or cannot be.
+        more: verdicts on what it gives beside states: dense output, an error estimate, and the like.
     """
 
     name: str
@@ -82,6 +85,7 @@ class Findings:
     hint: str | None = None
     others: tuple[Energy, ...] = ()
     back: Order | None = None
+    more: tuple[Verdict, ...] = ()
 
     @property
     def order(self) -> Order:
@@ -157,14 +161,8 @@ class Findings:
         return ANSWERS[self.order_standing]
 
     @property
-    def claims_hold(self) -> bool | None:
-        """Whether all that is claimed holds: not where anything fails, None where anything is not established."""
-        standings = self.standings.values()
-        return ANSWERS[next((one for one in ("fails", "open") if one in standings), "holds")]
-
-    @property
     def standings(self) -> dict[str, Standing]:
-        """How each claim that is made stands, by its name."""
+        """How each claim on its states that is made stands, by its name."""
         found = {
             "order": self.order_standing,
             "backward": self._back_standing,

@@ -19,7 +19,7 @@ import numpy as np
 from compare.claims.expansion import Expansion
 from compare.measure.truth import errors_of_doubles
 from reference.arithmetic.compiler import hy
-from reference.arithmetic.namespaces import NUMPY, Heyoka
+from reference.arithmetic.namespaces import JAX, NUMPY, Heyoka
 from reference.once import cached_property
 from reference.problem import SeparableProblem
 
@@ -66,16 +66,25 @@ class Field:
         limit: calls after which Exhausted is raised.
     """
 
-    def __init__(self, scene: Scene, limit: int) -> None:
-        self.scene, self.limit = scene, limit
+    def __init__(self, scene: Scene, limit: int, owner: Any = None) -> None:
+        self.scene, self.limit, self._owner = scene, limit, owner
         self.calls = 0
         self.timed = False
 
-    def __call__(self, *arguments: Any) -> np.ndarray:
+    def __eq__(self, other: object) -> bool:
+        """Whether another is of the same scene and check: a step that JAX compiled for the one serves the other."""
+        return isinstance(other, Field) and other._owner is self._owner and other.scene == self.scene
+
+    def __hash__(self) -> int:
+        return hash((id(self._owner), self.scene))
+
+    def __call__(self, *arguments: Any) -> Any:
         self.calls += 1
         if self.calls > self.limit:
             raise Exhausted(f"called f more than {self.limit} times")
-        t, y = self._time_and_state(arguments)
+        if any(type(one).__module__.partition(".")[0] in {"jax", "jaxlib"} for one in arguments):
+            return self._traced_by_jax(arguments)
+        t, y = self.time_and_state(arguments)
         if len(y) != self.scene.dimension:
             raise MisuseError(
                 f"f was called with a state of shape {y.shape}; {self.scene.dimension} components along the first axis "
@@ -89,9 +98,16 @@ class Field:
             return np.array(self.scene.rates(SYMBOLS, moment, tuple(y)), dtype=object)
         return self.scene.evaluated(t, y)
 
-    def _time_and_state(self, arguments: tuple[Any, ...]) -> tuple[Any, np.ndarray]:
+    def _traced_by_jax(self, arguments: tuple[Any, ...]) -> Any:
+        """The same of JAX's arrays, which may be tracers."""
+        import jax.numpy as jnp
+
+        t, y = self.time_and_state(arguments, jnp.asarray)
+        return jnp.stack([jnp.broadcast_to(rate, y.shape[1:]) for rate in self.scene.rates(JAX, t, tuple(y))])
+
+    def time_and_state(self, arguments: tuple[Any, ...], array: Any = np.asarray) -> tuple[Any, Any]:
         """Of two arguments the one with more axes is the state."""
-        first = np.asarray(arguments[0]) if arguments else np.empty(0)
+        first = array(arguments[0]) if arguments else np.empty(0)
         if len(arguments) == 1 and first.ndim:
             if not self.scene.problem.autonomous:
                 raise MisuseError(
@@ -99,7 +115,7 @@ class Field:
                     "step (f, t, y, h)."
                 )
             return 0.0, first
-        second = np.asarray(arguments[1]) if len(arguments) == 2 else first
+        second = array(arguments[1]) if len(arguments) == 2 else first
         if first.ndim == second.ndim:
             shapes = ", ".join(str(np.shape(argument)) for argument in arguments) or "none"
             raise MisuseError(f"f was called with arguments of the shapes {shapes}; f(y) or f(t, y) is accepted.")

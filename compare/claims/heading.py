@@ -6,14 +6,13 @@ Of a method of order one or more, (step(y, h) - y)/h tends to f(y) as h tends to
 from __future__ import annotations
 
 from dataclasses import dataclass
-from fractions import Fraction
 from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
 from compare.claims.consistency import uses
-from compare.claims.engine import Lanes, trial_states
 from compare.claims.frames import Exhausted, MisuseError, nonzero
+from compare.claims.points import Points
 from reference.arithmetic.namespaces import NUMPY
 
 if TYPE_CHECKING:
@@ -62,11 +61,9 @@ def heading(candidate: Candidate, scene: Scene, h: float) -> Heading:
     Raises:
         MisuseError: a step forward fails.
     """
-    times = trial_states(scene, h)[2]
-    y = -scene.errors([Fraction(float(t)) for t in times], np.zeros((len(times), scene.dimension)))
-    trial = _Trial(candidate, scene, times, y)
+    trial = _Trial(candidate, scene, h)
     slopes = trial.slope(h / SHORTER)
-    used = uses(candidate, scene, h)
+    used = candidate.form.own or uses(candidate, scene, h)
     consistent = trial.along(slopes, trial.slope(h / SHORT))
     cause = None if consistent else _cause(slopes, trial.rates, scene)
     try:
@@ -76,25 +73,14 @@ def heading(candidate: Candidate, scene: Scene, h: float) -> Heading:
     return Heading(consistent, "right" if back else "wrong", used, cause)
 
 
-class _Trial:
-    """Single steps from points of the exact motion [times, state]."""
+class _Trial(Points):
+    """The same, held against f."""
 
-    def __init__(self, candidate: Candidate, scene: Scene, times: np.ndarray, y: np.ndarray) -> None:
-        self.plain = Lanes(candidate, scene)
-        self.scene, self.times, self.y = scene, times, y
-        self.rates = np.array([scene.rates(NUMPY, t, tuple(one)) for t, one in zip(times, y, strict=True)])
+    def __init__(self, candidate: Candidate, scene: Scene, h: float) -> None:
+        super().__init__(candidate, scene, h)
+        rates = [scene.rates(NUMPY, t, tuple(one)) for t, one in zip(self.times, self.y, strict=True)]
+        self.rates = np.array(rates)
         self.size = nonzero(np.max(np.abs(self.rates), axis=0))
-
-    def after(self, h: float) -> np.ndarray:
-        """The states a step later.
-
-        Raises:
-            MisuseError: one is not finite.
-        """
-        found = np.array([self.plain.one(one, h, float(t)) for t, one in zip(self.times, self.y, strict=True)])
-        if not np.all(np.isfinite(found)):
-            raise MisuseError(f"a step of h = {h:.4g} gives no finite state; finite numbers are accepted.")
-        return found
 
     def slope(self, h: float) -> np.ndarray:
         """(step(y, h) - y)/h."""
@@ -108,12 +94,8 @@ class _Trial:
 
     def as_good_back(self, h: float) -> bool:
         """Whether a step back errs no more than one forward, within a large factor."""
-        forth, back = (self._error(signed) for signed in (h, -h))
+        forth, back = (self.error(self.after(signed), signed) for signed in (h, -h))
         return back <= max(WORSE * forth, MATTERS)
-
-    def _error(self, h: float) -> float:
-        times = [Fraction(float(t)) + Fraction(h) for t in self.times]
-        return float(np.max(np.abs(self.scene.errors(times, self.after(h))) / self.scene.sizes(self.y.T)))
 
 
 def _cause(slopes: np.ndarray, rates: np.ndarray, scene: Scene) -> str | None:

@@ -12,7 +12,7 @@ from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
-__all__ = ["CLOSED", "serve"]
+__all__ = ["CLOSED", "name_of", "serve"]
 
 CLOSED = 117
 """The exit code where the answer cannot be sent."""
@@ -79,33 +79,50 @@ def _identity(handle: int) -> tuple[int, int] | None:
 
 def _answer(line: _Line, request: dict[str, Any]) -> dict[str, Any]:
     """The check as text with its exit code, or why it is refused."""
-    from compare.claims.candidate import loaded
+    from compare.claims.forms import loaded
     from reference.command.terminal import sentence
 
     options = request["options"]
+    name = name_of(options)
     line.say({"stage": "begun"})
     try:
-        step = loaded(options["step"])
+        step = _step(options, loaded)
         line.say({"stage": "loaded"})
 
         from compare.claims import exchange, show
-        from compare.claims.checking import check
+        from compare.claims.tried import tried
         from compare.show import render
 
         line.say({"stage": "ready"})
-        found = check(**{**options, "step": step, **_problem(options.get("problem"))})
+        if options.get("interpolant") is not None:
+            options["interpolant"] = loaded(options["interpolant"])
+        found = tried(step, {**options, **_problem(options.pop("problem", None))})
     except (OSError, ValueError, ImportError, ArithmeticError, RuntimeError) as error:
         return {"refused": sentence(error)}
     except BaseException as error:
         if isinstance(error, Exception):
             raise  # a fault of the judge's own, of which the traceback says most
-        name = options["step"].rpartition(":")[2]
         return {"left": f"{name} raised {type(error).__name__}"}
     if request["form"] in exchange.WRITERS:
         text = exchange.WRITERS[request["form"]](found, exchange.place_of(step))
     else:
         text = render.render(show.page(found), request["form"])
     return {"text": text, "code": EXIT_CODES[found.claims_hold]}
+
+
+def _step(options: dict[str, Any], loaded: Any) -> Any:
+    """The user's function, or program."""
+    name, command = options.pop("step"), options.pop("process", None)
+    if command is None:
+        return loaded(name)
+    from compare.claims.process import Process
+
+    return Process(command, timed=options.get("form") == "own-timed")
+
+
+def name_of(options: dict[str, Any]) -> str:
+    """What is tried, as sentences name it."""
+    return str(options.get("process") or options["step"]).rpartition(":")[2]
 
 
 def _problem(asked: dict[str, Any] | None) -> dict[str, Any]:

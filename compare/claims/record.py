@@ -6,80 +6,41 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from compare.claims.findings import Findings
+from compare.claims.verdicts import Judged, Verdict
 
 if TYPE_CHECKING:
     from compare.claims.defects import Defect
     from compare.claims.energy import Energy
-    from compare.claims.findings import Standing
+    from compare.claims.verdicts import Standing
 
-__all__ = ["Check", "Verdict"]
-
-STANDINGS: dict[Standing, str] = {"holds": "PASS", "fails": "FAIL", "open": "NOT ESTABLISHED"}
+__all__ = ["Check"]
 
 MORE = 0.4
 """An interval so far above a claim is more than claimed."""
 
 
 @dataclass(frozen=True)
-class Verdict:
-    """On one claim.
-
-    Attributes:
-        claim: its name: "order", "backward", "symplectic", "reversible" or "conserves".
-        words: what is claimed, such as "order 4".
-        standing: "PASS", "FAIL" or "NOT ESTABLISHED".
-        measured: what was measured, with its interval or its step.
-        causes: what explains a failure, or would decide what is not established; empty where nothing is known.
-    """
-
-    claim: str
-    words: str
-    standing: str
-    measured: str
-    causes: tuple[str, ...] = ()
-
-    def __str__(self) -> str:
-        return f"{self.standing}  {self.words}: {'; '.join([self.measured, *self.causes])}"
-
-
-@dataclass(frozen=True)
-class Check(Findings):
+class Check(Findings, Judged):
     """The findings, in words."""
 
     @property
     def verdicts(self) -> tuple[Verdict, ...]:
         """One for each claim that is made."""
-        return tuple(self._verdict(name, standing) for name, standing in self.standings.items())
-
-    def assert_holds(self) -> None:
-        """Nothing where every claim holds.
-
-        Raises:
-            AssertionError: one fails or is not established; it says the verdict of each that does not hold.
-            ValueError: nothing is claimed.
-        """
-        if not self.standings:
-            raise ValueError(
-                f"nothing is claimed of {self.name}; an order, symplectic, reversible or conserves is accepted."
-            )
-        told = [f"{self.name} on {self.problem}: {one}." for one in self.verdicts if one.standing != "PASS"]
-        if told:
-            raise AssertionError("\n".join(told))
+        found = (self._verdict(name, standing) for name, standing in self.standings.items())
+        return (*found, *self.more)
 
     def _verdict(self, name: str, standing: Standing) -> Verdict:
-        causes = () if standing == "holds" else tuple(why for of, why in self._reasons() if of in {None, name})
+        causes = tuple(why for of, why in self._reasons() if of in {None, name})
         if name == "order":
-            return Verdict(
-                name, f"order {self.claims.order:g}", STANDINGS[standing], self._measured_order_words, causes
-            )
+            return Verdict.of(name, f"order {self.claims.order:g}", standing, self._measured_order_words, causes)
         if name == "backward":
             words = f"order {self.claims.order:g} for negative steps"
-            return Verdict(name, words, STANDINGS[standing], self._back_words, causes)
+            return Verdict.of(name, words, standing, self._back_words, causes)
         if name == "conserves":
             told = "; ".join(self._energy_words())
-            return Verdict(name, "conservation of its invariants", STANDINGS[standing], told, causes)
+            return Verdict.of(name, "conservation of its invariants", standing, told, causes)
         defect = {"symplectic": self.symplecticity, "reversible": self.reversibility}[name]
-        return Verdict(name, name, STANDINGS[standing], _measured(defect), causes)
+        return Verdict.of(name, name, standing, _measured(defect), causes)
 
     @property
     def verdict(self) -> str:

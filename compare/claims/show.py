@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from compare.claims.record import Check
 from compare.show.page import Lines, Page, Sentence, fields_of, in_lines
 from compare.show.text_table import Column, Grid, Table
 
@@ -12,7 +13,7 @@ if TYPE_CHECKING:
 
     from compare.claims.energy import Energy
     from compare.claims.order import Order
-    from compare.claims.record import Check
+    from compare.claims.verdicts import Judged
     from compare.show.page import Block
 
 __all__ = ["page"]
@@ -26,9 +27,24 @@ RUN = {
 }
 
 
-def page(found: Check) -> Page:
-    """The verdict, and the errors that the order was read from."""
-    return Page("check", lambda _form, _width: _blocks(found), lambda: _data(found))
+def page(found: Judged) -> Page:
+    """The verdicts, and of a step the errors that the order was read from."""
+    if isinstance(found, Check):
+        return Page("check", lambda _form, _width: _blocks(found), lambda: _data(found))
+    return Page("check", lambda _form, _width: _verdicts(found), lambda: _alone(found))
+
+
+def _verdicts(found: Judged) -> Iterator[Block]:
+    """A line for each claim."""
+    if found.verdicts:
+        yield Sentence("\n".join(f"{one}." for one in found.verdicts))
+    yield Sentence(f"{found.name} on {found.problem}.")
+
+
+def _alone(found: Judged) -> Lines:
+    """One object of the verdicts."""
+    told = {"name": found.name, "problem": found.problem, "claims_hold": found.claims_hold}
+    return Lines(in_lines({**told, "verdicts": [fields_of(one) for one in found.verdicts]}).entries)
 
 
 def _blocks(found: Check) -> Iterator[Block]:

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from functools import lru_cache, partial
-from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from compare.solvers.solver import Answer, Question, Solver, SolverError
+from reference.arithmetic.namespaces import JAX
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -20,22 +20,11 @@ __all__ = ["SOLVERS"]
 METHODS = ("Tsit5", "Dopri8")
 
 
-@lru_cache(maxsize=1)
-def _arithmetic() -> Any:
-    """JAX's arrays as an arithmetic."""
-    import jax.numpy as jnp
-
-    names = ["sin", "cos", "tan", "asin", "acos", "atan", "sinh", "cosh", "tanh", "exp", "log", "sqrt"]
-    own = {"number": float, "pi": lambda: jnp.pi, "power": lambda x, exponent: x ** float(exponent)}
-    return SimpleNamespace(**{name: getattr(jnp, name) for name in names}, **own)
-
-
 def _field(problem: Problem, tally: list[int] | None) -> Callable[[Any, Any, Any], Any]:
     """dy/dt as diffrax takes it; with a tally, JAX calls back at every evaluation, which takes longer than it does."""
     import jax
     import jax.numpy as jnp
 
-    m = _arithmetic()
     parameters = {name: float(value) for name, value in problem.parameters.items()}
 
     def count() -> None:
@@ -45,7 +34,7 @@ def _field(problem: Problem, tally: list[int] | None) -> Callable[[Any, Any, Any
     def field(t: Any, y: Any, _args: Any) -> Any:
         if tally is not None:
             jax.debug.callback(count)
-        return jnp.stack(problem.derivative(m, t, y, parameters))
+        return jnp.stack(problem.derivative(JAX, t, y, parameters))
 
     return field
 
@@ -87,10 +76,9 @@ def _compiled(
 
 def _condition(event: Callable[[Any, Any], Any]) -> Callable[..., Any]:
     """An event function as diffrax calls it, which names its arguments."""
-    m = _arithmetic()
 
     def condition(t: Any, y: Any, args: Any, **_: Any) -> Any:  # noqa: ARG001
-        return event(m, y)
+        return event(JAX, y)
 
     return condition
 

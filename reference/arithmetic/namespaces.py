@@ -21,11 +21,13 @@ if TYPE_CHECKING:
 
 __all__ = [
     "BALL",
+    "JAX",
     "MPMATH",
     "NUMPY",
     "Ball",
     "ComplexBall",
     "Heyoka",
+    "Jax",
     "Mpmath",
     "Numpy",
     "Term",
@@ -107,6 +109,18 @@ class Numpy:
     @staticmethod
     def number(value: Fraction) -> float:
         return float(value)
+
+
+class Jax(Numpy):
+    """JAX's arrays and tracers; JAX is imported with the first function that is asked for."""
+
+    def __getattr__(self, name: str) -> Any:
+        if name not in Numpy.__annotations__:
+            raise AttributeError(f"JAX's arithmetic has no {name}.")
+        import jax.numpy as jnp
+
+        setattr(self, name, getattr(jnp, name))
+        return getattr(jnp, name)
 
 
 class Heyoka:
@@ -232,3 +246,4 @@ class Term:
 
 MPMATH = Mpmath()
 NUMPY = Numpy()
+JAX = Jax()

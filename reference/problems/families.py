@@ -21,7 +21,7 @@ from reference.names import unknown
 if TYPE_CHECKING:
     from reference.problem import Problem
 
-__all__ = ["FAMILIES", "USUAL", "find_family", "usual_problem"]
+__all__ = ["FAMILIES", "USUAL", "find_family", "stiff_problem", "usual_problem"]
 
 FIRST = ("pendulum", "cycloid", "descent", "polar", "tunnel")
 """The order of the dataset; what is added later follows by its name."""
@@ -56,10 +56,19 @@ USUAL = FAMILIES[0].name
 """The family of what is tried where none is named."""
 
 
+STIFF = "prothero-robinson"
+"""The family of a stiff equation whose solution is known."""
+
+
 def usual_problem() -> Problem:
     """The problem that an integrator is tried on where none is named: the first value of the usual family."""
     family = FAMILIES[0]
     return family.problem(**{family.comparison.varied: family.comparison.values[0]})
+
+
+def stiff_problem(rate: int) -> Problem:
+    """The problem on which orders are reduced: a smooth solution that others approach as e^(rate t)."""
+    return find_family(STIFF).problem(rate)
 
 
 @cache

@@ -102,11 +102,11 @@ def midpoint_with_a_default(f, y, h=0.01):
     return y + h * f(y + h / 2 * f(y))
 
 
-def verlet_of_a_gradient(q, p, grad_v, h):
+def verlet_of_a_gradient(q, p, force, h):
     """Verlet for the gradient of a potential, given a force."""
-    p = p - h / 2 * grad_v(q)
+    p = p - h / 2 * force(q)
     q = q + h * p
-    return q, p - h / 2 * grad_v(q)
+    return q, p - h / 2 * force(q)
 
 
 def against_the_slope(f, y, h):

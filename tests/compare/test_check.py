@@ -11,7 +11,7 @@ import pytest
 import slips
 
 import compare
-from compare.claims.candidate import form_of
+from compare.claims.forms import form_of
 from compare.claims.frames import Field, Frame, Scene
 from compare.claims.order import Cell, fitted, ladder
 from reference import Pendulum
@@ -169,7 +169,13 @@ FORMS = {
     "a b c d": ("timed", "f t y h"),
     "q p force h": ("separable", "q p force h"),
     "x v acc dt": ("separable", "q p force h"),
-    "q p grad_v h": ("separable", "q p force h"),
+    "q p grad_v h": ("gradient", "q p gradient h"),
+    "x v dV dt": ("gradient", "q p gradient h"),
+    "y h": ("own", "y h"),
+    "a b": ("own", "y h"),
+    "dt u": ("own", "h y"),
+    "t y h": ("own-timed", "t y h"),
+    "q p dt": ("own-separable", "q p h"),
 }
 
 

@@ -29,6 +29,7 @@ ASKED = {
         "--z0 0.2 --tau 1",
         "z z_rate phi kappa half_angle descent_time arrival_time chord_time chord_gap",
     ),
+    "prothero-robinson": ("--lam -10 --t 0.5", "y"),
     "tunnel": (
         "--z0 0.5 --psi 1",
         "z phi tau kappa half_angle descent_time arrival_time chord_time chord_gap",

@@ -1,0 +1,160 @@
+"""Integrators in the forms that people have: each is measured as what it is, on the time too."""
+
+from __future__ import annotations
+
+import json
+import shutil
+import subprocess
+import sys
+
+import people
+import pytest
+
+import compare
+from compare.__main__ import main
+from compare.claims.forms import loaded
+from reference import Pendulum
+from reference.problems.families import find_family
+
+
+@pytest.mark.parametrize(
+    ("integrator", "form", "claims"),
+    [
+        (people.verlet_of_a_potential, "gradient", {"order": 2, "symplectic": True}),
+        (people.with_its_own_equation, "own", {"order": 4, "problem": Pendulum(1)}),
+        (people.Stepper, "class", {"order": 4}),
+        (people.Advancing, "class", {"order": 2}),
+        (people.states_one_after_another, "generator", {"order": 4}),
+        (people.times_and_states, "generator", {"order": 4}),
+        (people.over_a_span, "solver", {"order": 4}),
+        (people.in_so_many_steps, "solver", {"order": 4}),
+        (people.to_the_end, "solver", {"order": 4}),
+    ],
+)
+def test_sound_integrators_hold_in_every_form(integrator, form, claims):
+    found = compare.check(integrator, **claims)
+    assert found.claims_hold
+    assert found.form == form
+
+
+def test_a_class_that_keeps_the_time_of_a_step_fails_where_the_time_enters():
+    found = compare.check(people.WithFrozenTime, order=4)
+    assert found.claims_hold is False
+    assert found.still.value == pytest.approx(4, abs=0.1)
+    assert found.swinging.value == pytest.approx(1, abs=0.1)
+
+
+def test_an_equation_of_its_own_is_that_of_the_problem():
+    assert compare.check(people.with_its_own_equation, order=4, problem=Pendulum(2)).claims_hold
+    assert compare.check(people.with_its_own_equation, order=4, problem=Pendulum(1, length=2)).claims_hold is False
+
+
+class NoStep:
+    def __init__(self, f, y0, h):
+        pass
+
+
+class NoState(NoStep):
+    def step(self):
+        pass
+
+
+def of_something(f, t_span, y0, colour):
+    return f, t_span, y0, colour
+
+
+def three_states(f, y0, h):
+    yield from [y0, y0 + h * f(y0)]
+
+
+def own_times(fun, t_span, y0, h):
+    import numpy as np
+
+    del fun, h
+    return np.linspace(*t_span, 7), np.tile(y0, (7, 1))
+
+
+@pytest.mark.parametrize(
+    ("integrator", "says"),
+    [
+        (people.with_its_own_equation, "takes no f, so that nobody knows of which equation it is a step"),
+        (lambda f, y: f(y), "has the arguments f, y, and no step"),
+        (NoStep, "is a class without a method step or advance or do_step"),
+        (NoState, "has no state; one of y, state, u, x, or q and p, is accepted"),
+        (of_something, "an argument colour, of which nothing is known; f, t_span, y0, t_eval, h, n are accepted"),
+        (three_states, "yielded 2 states where 9 were asked for"),
+        (own_times, "gave the states at 7 times of its own, where 9 from 0 to 0.8 were asked for"),
+    ],
+)
+def test_what_cannot_be_called_is_one_sentence(integrator, says):
+    with pytest.raises(ValueError, match=says) as caught:
+        compare.check(integrator, order=1)
+    assert "\n" not in str(caught.value)
+
+
+def test_a_step_of_its_own_on_a_problem_in_time_takes_the_time():
+    driven = find_family("driven-pendulum").problem()
+    with pytest.raises(
+        ValueError, match=r"takes no time, on which DrivenPendulum\(.*\) depends; \(t, y, h\) is accepted"
+    ):
+        compare.check(people.with_its_own_equation, order=4, problem=driven)
+
+
+PROGRAM = """
+import math, sys
+for line in sys.stdin:
+    h, theta, omega = map(float, line.split())
+    omega -= h / 2 * 9.81 * math.sin(theta)
+    theta += h * omega
+    omega -= h / 2 * 9.81 * math.sin(theta)
+    print(theta, omega, flush=True)
+"""
+
+
+def test_a_step_in_another_process_is_measured_as_any(tmp_path, capsys):
+    program = tmp_path / "verlet.py"
+    program.write_text(PROGRAM, encoding="utf-8")
+    words = ["--process", f"{sys.executable} {program}", "--problem", "pendulum", "--order", "2", "--symplectic"]
+    assert main(["check", *words, "--reversible", "--format", "json"]) == 0
+    found = json.loads(capsys.readouterr().out)
+    assert [one["standing"] for one in found["verdicts"]] == ["PASS"] * 3
+    assert main(["check", *words[:-2], "4"]) == 1
+
+
+@pytest.mark.parametrize(
+    ("command", "says"),
+    [
+        ("no-such-program", "'no-such-program' cannot be started: No such file or directory; a program is accepted"),
+        ("cat", "cat wrote '.*' for the line '.*'; 2 numbers with blanks between them are accepted"),
+        ("true", "true ended with exit code 0; a program that reads line after line is accepted"),
+    ],
+)
+def test_a_program_that_is_no_step_is_one_sentence(command, says):
+    with pytest.raises(ValueError, match=says):
+        compare.check(compare.Process(command), order=2, problem=Pendulum(1))
+
+
+LIBRARY = """
+typedef void (*rhs)(double t, const double *y, double *dydt);
+
+void midpoint(rhs f, int n, double t, double h, const double *y, double *ynew)
+{
+    double k[16], z[16];
+    f(t, y, k);
+    for (int i = 0; i < n; i++) z[i] = y[i] + h / 2 * k[i];
+    f(t + h / 2, z, k);
+    for (int i = 0; i < n; i++) ynew[i] = y[i] + h * k[i];
+}
+"""
+
+
+@pytest.mark.parametrize("compiler", [one for one in ("cc", "gcc", "clang") if shutil.which(one)][:1])
+def test_a_step_in_a_library_is_called_by_the_convention_of_c(tmp_path, compiler):
+    (tmp_path / "midpoint.c").write_text(LIBRARY, encoding="utf-8")
+    library = tmp_path / "midpoint.so"
+    subprocess.run([compiler, "-shared", "-fPIC", "-O1", "-o", library, tmp_path / "midpoint.c"], check=True)
+    found = compare.check(loaded(f"{library}:midpoint"), order=2)
+    assert found.claims_hold
+    assert found.swinging.value == pytest.approx(2, abs=0.1)
+    with pytest.raises(ValueError, match="has no function nothing; one that it exports is accepted"):
+        loaded(f"{library}:nothing")
