@@ -76,7 +76,7 @@ class Candidate:
             positions = field.scene.problem.positions
             values |= {"q": y[:positions], "p": y[positions:]}
             values |= {"force": _Forces(field), "gradient": _Gradients(field)}
-        found = self._called(values)
+        found = self.called(values)
         return self._joined(found, y) if self.form.separable else found
 
     def states(self, field: Field, y: np.ndarray, grid: np.ndarray) -> np.ndarray:
@@ -85,7 +85,7 @@ class Candidate:
         Raises:
             MisuseError: the function raised something, or gave no such states.
         """
-        found, times = _solution(self._called({"f": field, "y": y.copy(), "grid": grid.copy()}))
+        found, times = _solution(self.called({"f": field, "y": y.copy(), "grid": grid.copy()}))
         array = self.numbers(found, f"{self.name} on {len(grid)} times")
         if times is not None:
             own = self.numbers(times, f"{self.name} on {len(grid)} times")
@@ -123,7 +123,12 @@ class Candidate:
             raise MisuseError(f"{what} returned {_kind(found)}; an array of real numbers is accepted.")
         return array.astype(np.float64)
 
-    def _called(self, values: dict[str, Any]) -> Any:
+    def called(self, values: dict[str, Any]) -> Any:
+        """What the function returns, given the values of its roles.
+
+        Raises:
+            MisuseError: it raised something, which the sentence repeats.
+        """
         if "f" in values and is_jitted(self.function):
             values = {**values, "f": jitted(values["f"])}
         try:

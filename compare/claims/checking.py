@@ -14,6 +14,7 @@ import numpy as np
 from compare.claims import local, stiffness, tolerances
 from compare.claims.adapters import adapted, with_arguments
 from compare.claims.candidate import Candidate
+from compare.claims.coefficients import slip
 from compare.claims.consistency import advance_of_a_constant_slope, iterates, uses
 from compare.claims.deadline import TimeOut, deadline
 from compare.claims.defects import Evidence, reversibility, symplecticity
@@ -50,8 +51,8 @@ CALLS_ON_ARRAYS = 40_000
 """The same on arrays, where all lanes share a call."""
 FRAME = 0.5, 0.7
 """Amplitude of the swinging frame in rad, or over the size of a motion, and its frequency over the motion's rate."""
-MARCH_SECONDS, TIMED_STEPS = 2.0, 16
-"""Seconds for the marches of one scene, where a step is slow, and steps by which that is seen."""
+MARCH, TIMED_STEPS = 1 / 30, 16
+"""Part of the time for the marches of one scene, where a step is slow, and steps by which that is seen."""
 MOST_STEPS = 4096
 LEAST_STEPS = 48
 LANES_OF_A_LADDER = 7
@@ -143,7 +144,7 @@ def check(
     candidate.hold(scene)
     try:
         with deadline(seconds):
-            found = _checked(candidate, claims, scene, time.monotonic() + seconds * PURSUED)
+            found = _checked(candidate, claims, scene, seconds)
             return replace(found, more=tuple(_beside(step, candidate, claims, scene, interpolant, form)))
     except Exhausted as error:
         raise MisuseError(f"{candidate.name} {error} in one step; it does not come to an end.") from None
@@ -217,10 +218,11 @@ def _name(step: Callable[..., Any]) -> str:
     return str(getattr(step, "__name__", type(step).__name__))
 
 
-def _checked(candidate: Candidate, claims: Claims, scene: Scene, until: float) -> Check:
+def _checked(candidate: Candidate, claims: Claims, scene: Scene, seconds: float) -> Check:
+    until = time.monotonic() + seconds * PURSUED
     h = scene.step
     marcher, calls, timed, name = _marcher(candidate, scene, h)
-    most = _most_steps(marcher, calls)
+    most = _most_steps(marcher, calls, seconds * MARCH)
     counts = ladder(most)
     still = measured(marcher, scene.span, counts, until)
     _hold_measurable(candidate.name, still, claims)
@@ -258,7 +260,7 @@ def _checked(candidate: Candidate, claims: Claims, scene: Scene, until: float) -
         powers=series,
         advance=advance_of_a_constant_slope(candidate, scene, h) if explicit else None,
     )
-    return replace(found, hint=_hint(found, marcher, scene.span))
+    return replace(found, hint=_hint(found, candidate, marcher, scene.span))
 
 
 def _back(marcher: Marcher, counts: Sequence[int], until: float) -> Order | None:
@@ -296,13 +298,16 @@ def _heading(candidate: Candidate, marcher: Marcher, h: float) -> Heading:
     return heading(candidate, marcher.scene, h)
 
 
-def _hint(found: Check, marcher: Marcher, t_end: float) -> str | None:
-    """What would make one of order one the method of order two that it claims to be."""
+def _hint(found: Check, candidate: Candidate, marcher: Marcher, t_end: float) -> str | None:
+    """What explains that an order is not the one that is claimed, where it is known."""
     claim, order = found.claims.order, found.measured_order
-    if marcher.whole or not found.consistent or claim is None or order is None or not (order < ALMOST_TWO <= claim):
+    if marcher.whole or claim is None or found.order_standing == "holds":
         return None
-    place = half_step(marcher, t_end)
-    return None if place is None else f"of order 2 with {place}: half a step parts them"
+    if found.consistent and order is not None and order < ALMOST_TWO <= claim:
+        place = half_step(marcher, t_end)
+        if place is not None:
+            return f"of order 2 with {place}: half a step parts them"
+    return slip(candidate, claim)
 
 
 def _marcher(candidate: Candidate, scene: Scene, h: float) -> tuple[Marcher, float, bool, str]:
@@ -331,14 +336,14 @@ def _trial(candidate: Candidate, scene: Scene, h: float) -> tuple[float, bool]:
     return calls, field.timed
 
 
-def _most_steps(marcher: Marcher, calls: float) -> int:
+def _most_steps(marcher: Marcher, calls: float, seconds: float) -> int:
     """The largest number of steps that the budgets of calls and of seconds allow."""
     if isinstance(marcher, Steps) and isinstance(marcher.engine, Traced):
         return MOST_STEPS
     together = isinstance(marcher, Steps) and not isinstance(marcher.engine, Lanes)
     allowed = CALLS_ON_ARRAYS if together else CALLS / LANES_OF_A_LADDER
     steps = int(min(max(allowed / max(calls, 1.0), LEAST_STEPS), MOST_STEPS))
-    within = MARCH_SECONDS / _seconds_of_a_step(marcher) / (1 if together else LANES_OF_A_LADDER)
+    within = seconds / _seconds_of_a_step(marcher) / (1 if together else LANES_OF_A_LADDER)
     while steps >= 2 * LEAST_STEPS and steps > within:
         steps //= 2
     return steps

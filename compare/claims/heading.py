@@ -5,6 +5,7 @@ Of a method of order one or more, (step(y, h) - y)/h tends to f(y) as h tends to
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal
 
@@ -16,13 +17,16 @@ from compare.claims.points import Points
 from reference.arithmetic.namespaces import NUMPY
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from compare.claims.candidate import Candidate
     from compare.claims.frames import Scene
 
 __all__ = ["UNTRIED", "Heading", "heading"]
 
-SHORT, SHORTER = 8, 64
-"""Steps, as parts of h, with which the slope of a step is compared with f."""
+SHORT, SHORTER, SHORTEST = 8, 64, 1 << 16
+"""Steps, as parts of h, with which the slope of a step is compared with f; the last with a known mistake of a large
+factor."""
 NEAR, FALLING = 1e-3, 0.5
 """It is f if it is so near to it, or if its distance with the shorter step is so much less than with the other."""
 MATCH = 0.05
@@ -65,7 +69,7 @@ def heading(candidate: Candidate, scene: Scene, h: float) -> Heading:
     slopes = trial.slope(h / SHORTER)
     used = candidate.form.own or uses(candidate, scene, h)
     consistent = trial.along(slopes, trial.slope(h / SHORT))
-    cause = None if consistent else _cause(slopes, trial.rates, scene)
+    cause = None if consistent else _cause(slopes, trial.slope(h / SHORT), trial, scene)
     try:
         back = trial.along(trial.slope(-h / SHORTER), trial.slope(-h / SHORT)) and trial.as_good_back(h / 2)
     except (MisuseError, Exhausted):
@@ -98,20 +102,51 @@ class _Trial(Points):
         return back <= max(WORSE * forth, MATTERS)
 
 
-def _cause(slopes: np.ndarray, rates: np.ndarray, scene: Scene) -> str | None:
-    """What a slope is in place of f, where it is known."""
+def _cause(slopes: np.ndarray, longer: np.ndarray, trial: _Trial, scene: Scene) -> str | None:
+    """What a slope is in place of f, where it is known; ``longer`` is that of a step which is so much longer."""
+    rates, least = trial.rates, trial.slope(scene.step / SHORTEST)
+    if np.any(slopes) and _multiple(longer, slopes, (SHORTER / SHORT,)) is not None:
+        return "what it adds goes with h^2, where it should go with h"
+    if (factor := _factor(least, rates)) is not None:
+        far = {1000: ", as where h is turned into milliseconds", 0.001: ", as where h is taken for milliseconds"}
+        return f"it goes on by {factor:.4g} h{next((why for k, why in far.items() if abs(factor / k - 1) < MATCH), '')}"
+    if _in_degrees(least, trial, scene):
+        return "it goes along f of angles in degrees, where they are in radians"
     first = scene.problem.space.places(scene.problem.space.positions)
     second = scene.rates_places or first
-    return CAUSES.get((_multiple(slopes[:, first], rates[:, first]), _multiple(slopes[:, second], rates[:, second])))
+    signs = (1, 0, -1)
+    known = (_multiple(slopes[:, places], rates[:, places], signs) for places in (first, second))
+    return CAUSES.get(tuple(known))
 
 
-def _multiple(slopes: np.ndarray, rates: np.ndarray) -> int | None:
-    """The one of 1, 0, -1 whose product with the rates the slopes are, or None."""
+def _multiple(slopes: np.ndarray, rates: np.ndarray, factors: Sequence[float]) -> float | None:
+    """The one of the factors whose product with the rates the slopes are, or None."""
     size = np.max(np.abs(rates))
-    return next((sign for sign in (1, 0, -1) if np.max(np.abs(slopes - sign * rates)) <= MATCH * size), None)
+    found = (one for one in factors if np.max(np.abs(slopes - one * rates)) <= MATCH * size * max(1.0, abs(one)))
+    return next(found, None)
 
 
-CAUSES: dict[tuple[int | None, int | None], str] = {
+def _factor(slopes: np.ndarray, rates: np.ndarray) -> float | None:
+    """The one number, of no sign and magnitude that is told otherwise, whose product with the rates the slopes are."""
+    factor = float(np.sum(slopes * rates) / np.sum(rates * rates))
+    if factor <= 0 or abs(factor - 1) <= MATCH:
+        return None
+    return factor if np.max(np.abs(slopes / factor - rates)) <= MATCH * np.max(np.abs(rates)) else None
+
+
+def _in_degrees(slopes: np.ndarray, trial: _Trial, scene: Scene) -> bool:
+    """Whether slopes are the rates where the angles are turned into radians, or into degrees, once more."""
+    angles = scene.problem.space.places(scene.problem.space.angles)
+    for factor in (math.pi / 180, 180 / math.pi) if angles else ():
+        y = trial.y.copy()
+        y[:, angles] *= factor
+        rates = np.array([scene.rates(NUMPY, t, tuple(one)) for t, one in zip(trial.times, y, strict=True)])
+        if np.max(np.abs(slopes - rates)) <= MATCH * np.max(np.abs(rates)):
+            return True
+    return False
+
+
+CAUSES: dict[tuple[float | None, ...], str] = {
     (1, -1): "the momenta go against the force, as with the gradient of the potential in its place: "
     "force = -gradient is what a step is given",
     (0, 0): "it does not move",

@@ -51,6 +51,8 @@ class Check(Findings, Judged):
     def _reasons(self) -> list[tuple[str | None, str]]:
         """What explains that a claim fails, or would decide it: of which claim, None of all, and the words."""
         parts: list[tuple[str | None, str]] = [] if self.hint is None else [("order", self.hint)]
+        if self._times_matter and self.hint is None:
+            parts.append(("order", "the time enters f otherwise than it should: a stage is taken at a wrong time"))
         if not self.consistent:
             parts.append((None, f"not consistent: {self._why_inconsistent}"))
         if self.heading.consistent and self.heading.backward == "wrong":
