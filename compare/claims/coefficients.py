@@ -46,7 +46,7 @@ class _Read:
     rows: tuple[tuple[float, ...], ...]
 
 
-def slip(candidate: Candidate, order: float | None) -> str | None:
+def slip(candidate: Candidate, order: float) -> str | None:
     """Which coefficient of a step is wrong, if that is known; ``order`` is the one that it should have."""
     try:
         read = _splitting(candidate) if candidate.form.separable else _tableau(candidate)
@@ -58,7 +58,7 @@ def slip(candidate: Candidate, order: float | None) -> str | None:
         return f"{read.by_square[0]} goes with h^2, where it should go with h"
     if not candidate.form.separable and (told := _wrong_time(read)):
         return told
-    return _near_a_known_one(read, splitting=candidate.form.separable) or _condition(read, order)
+    return _near_a_known_one(read, order, splitting=candidate.form.separable) or _condition(read, order)
 
 
 class _Probe:
@@ -149,11 +149,11 @@ def _wrong_time(read: _Read) -> str | None:
     return None
 
 
-def _near_a_known_one(read: _Read, *, splitting: bool) -> str | None:
-    """The coefficients that a known method has otherwise, if they are few."""
+def _near_a_known_one(read: _Read, order: float, *, splitting: bool) -> str | None:
+    """The coefficients that a known method of that order has otherwise, if they are few."""
     best: tuple[int, str] | None = None
-    for name, known in _known(splitting=splitting):
-        if known.keys() != read.values.keys():
+    for name, its_order, known in _known(splitting=splitting):
+        if known.keys() != read.values.keys() or its_order < order:
             continue
         off = [one for one, value in known.items() if not _same(read.values[one], float(enclose(value)))]
         if 0 < len(off) <= FEW and 2 * len(off) < len(known) and (best is None or len(off) < best[0]):
@@ -171,16 +171,16 @@ def _written(value: Any) -> str:
 
 
 @cache
-def _known(*, splitting: bool) -> tuple[tuple[str, dict[str, Any]], ...]:
+def _known(*, splitting: bool) -> tuple[tuple[str, int, dict[str, Any]], ...]:
     """The coefficients of the methods that are known, by the same names."""
     if splitting:
-        return tuple((one.name, _of_flows(one)) for one in METHODS if isinstance(one, Splitting))
+        return tuple((one.name, one.order, _of_flows(one)) for one in METHODS if isinstance(one, Splitting))
     found = []
     for one in METHODS:
         if isinstance(one, Tableau) and one.explicit:
             for used in {one.used, tuple(range(one.stages))}:
                 a = {f"a_{i + 1}{j + 1}": one.matrix[k][used[j]] for i, k in enumerate(used) for j in range(i)}
-                found.append((one.name, a | {f"b_{i + 1}": one.b[k] for i, k in enumerate(used)}))
+                found.append((one.name, one.order, a | {f"b_{i + 1}": one.b[k] for i, k in enumerate(used)}))
     return tuple(found)
 
 
@@ -196,7 +196,7 @@ def _of_flows(method: Splitting) -> dict[str, Any]:
     return {f"drift {i + 1}": d for i, d in enumerate(drifts)} | {f"kick {i + 1}": k for i, k in enumerate(kicks)}
 
 
-def _condition(read: _Read, order: float | None) -> str | None:
+def _condition(read: _Read, order: float) -> str | None:
     """The first order condition that does not hold, in the words of the field."""
     totals = {
         kind: sum(v for name, v in read.values.items() if name.startswith(kind)) for kind in ("b_", "kick", "drift")
@@ -204,7 +204,7 @@ def _condition(read: _Read, order: float | None) -> str | None:
     for kind, words in (("b_", "the weights b"), ("kick", "the kicks"), ("drift", "the drifts")):
         if any(name.startswith(kind) for name in read.values) and not _same(totals[kind], 1):
             return f"{words} sum to {totals[kind]:.6g}, and not to 1"
-    if not read.rows or order is None:
+    if not read.rows:
         return None
     weights = ElementaryWeights(read.rows[:-1])
     for vertices in range(2, min(int(order), CONDITIONS) + 1):
