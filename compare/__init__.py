@@ -9,7 +9,7 @@ if TYPE_CHECKING:
     from compare.claims.asserting import assert_conserves, assert_order, assert_reversible, assert_symplectic
     from compare.claims.checking import check
     from compare.files.score import score
-    from compare.methods.step_function import method
+    from compare.methods.own.step_function import method
     from compare.scored import energy_drift, error_vs_n
 
 __all__ = [
@@ -32,7 +32,7 @@ _HOMES = {
     "check": "compare.claims.checking",
     "energy_drift": "compare.scored",
     "error_vs_n": "compare.scored",
-    "method": "compare.methods.step_function",
+    "method": "compare.methods.own.step_function",
     "score": "compare.files.score",
 }
 

@@ -11,12 +11,11 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from compare.claims.candidate import Candidate, form_of
+from compare.claims.candidate import Candidate
 from compare.claims.consistency import advance_of_a_constant_slope, iterates, uses
-from compare.claims.deadline import TimeOut, deadline
 from compare.claims.defects import Evidence, reversibility, symplecticity
 from compare.claims.energy import kept
-from compare.claims.engine import Lanes, Steps, Traced, Whole, chosen, repeatable
+from compare.claims.engine import Lanes, Steps, Traced, Whole, chosen
 from compare.claims.findings import Claims
 from compare.claims.frames import Exhausted, Frame, MisuseError, Scene
 from compare.claims.half_step import half_step
@@ -25,6 +24,9 @@ from compare.claims.limits import SECONDS
 from compare.claims.order import ladder, measured
 from compare.claims.powers import lower, powers
 from compare.claims.record import Check
+from compare.methods.own.deadline import TimeOut, deadline
+from compare.methods.own.forms import form_of
+from compare.methods.own.hosting import repeatable
 from reference.arithmetic.underflow import require_gradual
 from reference.consistency import consistent
 from reference.problem import Problem
@@ -250,7 +252,7 @@ def _trial(candidate: Candidate, scene: Scene, h: float) -> tuple[float, bool]:
         raise MisuseError(f"{candidate.name} returned states that are not finite; finite numbers are accepted.")
     calls = field.calls / TRIAL_TIMES
     candidate.states(candidate.field(scene, TRIAL_TIMES), 0.9 * scene.start, grid)
-    repeatable(candidate, first, candidate.states(candidate.field(scene, TRIAL_TIMES), scene.start, grid))
+    repeatable(candidate.name, first, candidate.states(candidate.field(scene, TRIAL_TIMES), scene.start, grid))
     return calls, field.timed
 
 

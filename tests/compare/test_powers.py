@@ -7,10 +7,11 @@ import oddities
 import pytest
 import slips
 
-from compare.claims.candidate import Candidate, form_of
+from compare.claims.candidate import Candidate
 from compare.claims.expansion import Expansion, Expansions, NoSeriesError
 from compare.claims.frames import Frame, Scene
 from compare.claims.powers import Powers, lower, powers
+from compare.methods.own.forms import form_of
 from reference import Pendulum
 from reference.arithmetic.precision import mp
 
