@@ -376,7 +376,7 @@ def _report(wanted: Plan, found: dict[Task, tuple[WorkPoint, ...]], where: str) 
         engine={
             **facts(wanted.tasks[0].limit),
             "methods": f"marched by code compiled by heyoka {hy.__version__}, in float64",
-            **_manners(found),
+            **_manners(wanted, found),
             "clock": f"a march by itself, or the call of a solver; {where}",
         },
         points=tuple(point for task in wanted.tasks for point in found[task]),
@@ -386,11 +386,11 @@ def _report(wanted: Plan, found: dict[Task, tuple[WorkPoint, ...]], where: str) 
     )
 
 
-def _manners(found: dict[Task, tuple[WorkPoint, ...]]) -> dict[str, dict[str, str]]:
+def _manners(wanted: Plan, found: dict[Task, tuple[WorkPoint, ...]]) -> dict[str, dict[str, str]]:
     """How the methods of the user's own were marched, those that were."""
     problems: dict[Method, list[Problem]] = {}
-    for task, points in found.items():
-        if task.own is not None and not any(point.failure for point in points):
+    for task in wanted.tasks:
+        if task.own is not None and not any(point.failure for point in found[task]):
             problems.setdefault(task.method, []).append(autonomous(task.problem))
     fmt = precision("float64")
     marched = {method.name: manner(method, where, fmt) for method, where in problems.items()}
