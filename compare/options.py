@@ -81,12 +81,8 @@ def methods_offered(parser: argparse.ArgumentParser, default: str) -> None:
     parser.add_argument("--claims", action="append", metavar="P,Q", help=order)
 
 
-def methods_given(known: argparse.Namespace, taken: Sequence[str] = ()) -> dict[str, Any]:
+def methods_given(known: argparse.Namespace) -> dict[str, Any]:
     """The methods that were asked for, by name, and the user's own as they are; nothing where none is named.
-
-    Args:
-        known: what was read.
-        taken: names besides those of methods that are others'.
 
     Raises:
         ValueError, FileNotFoundError, ImportError: one of the user's own is not there, or is no method.
@@ -99,7 +95,7 @@ def methods_given(known: argparse.Namespace, taken: Sequence[str] = ()) -> dict[
     from compare.methods import DEFAULT, own_methods
 
     pieces = [piece.strip() for word in known.claims or () for piece in word.split(",")]
-    own = own_methods(known.method, [_order(piece) for piece in pieces], taken)
+    own = own_methods(known.method, [_order(piece) for piece in pieces])
     return {"methods": (*(DEFAULT if named is None else () if named == NONE else named), *own)}
 
 

@@ -84,13 +84,12 @@ def find(name: str) -> Method:
     raise ValueError(unknown("method", str(name), names, aliases))
 
 
-def own_methods(homes: Sequence[str], orders: Sequence[int], taken: Sequence[str] = ()) -> tuple[StepFunction, ...]:
+def own_methods(homes: Sequence[str], orders: Sequence[int]) -> tuple[StepFunction, ...]:
     """Methods of a user's own functions, each named as its function is, or FILE.py:NAME where another has that name.
 
     Args:
         homes: MODULE:NAME or FILE.py:NAME of each.
         orders: what each claims, or one for all; none where ``compare.method`` has declared them.
-        taken: names besides those of the methods that are others'.
 
     Raises:
         ValueError: there are other numbers of orders than of functions, a function is named twice, or is no step.
@@ -104,7 +103,7 @@ def own_methods(homes: Sequence[str], orders: Sequence[int], taken: Sequence[str
     each *= len(homes) if len(each) == 1 else 1
     words = [home.rpartition(":")[2] for home in homes]
     known = {one for method in METHODS for one in (method.name, f"{method.name}_compensated", *method.aliases)}
-    others = [*map(_plain, (*known, *taken)), *map(_plain, words)]
+    others = [*map(_plain, known), *map(_plain, words)]
     found = tuple(
         method_at(home, order, word if others.count(_plain(word)) == 1 else PurePath(home).name)
         for home, order, word in zip(homes, each, words, strict=True)

@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, Any
 
 from compare.options import NONE, methods_given, methods_offered
 from compare.show.render import FORMATS
-from compare.solvers.catalogue import SOLVERS
 from reference.command import values
 from reference.command.terminal import one_of
 
@@ -69,9 +68,7 @@ def options(known: argparse.Namespace) -> dict[str, Any]:
         if getattr(known, name) is not None
     }
     given |= {"solvers": ()} if given.get("solvers") == NONE else {}
-    given |= methods_given(
-        known, [name for solver in SOLVERS for name in (solver.name, solver.name.rpartition(".")[2])]
-    )
+    given |= methods_given(known)
     if known.t_end is not None:
         given["t_end"] = values.number(known.t_end, "t-end")
     if known.max_evaluations is not None:

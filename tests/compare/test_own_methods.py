@@ -407,7 +407,6 @@ def test_a_problem_that_lacks_what_a_step_takes_is_named(steps: Path, capsys: py
 def test_names_are_told_apart_from_those_that_are_known(steps: Path) -> None:
     homes = [f"{steps}:{name}" for name in ("rk4", "my_verlet", "closure")]
     assert [one.name for one in own_methods(homes, [2])] == ["steps_of_mine.py:rk4", "my_verlet", "closure"]
-    assert own_methods(homes[2:], [2], ["Closure"])[0].name == "steps_of_mine.py:closure"
 
 
 def test_a_whole_number_that_is_no_order_is_refused() -> None:
