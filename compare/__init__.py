@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from compare.claims.gradients import assert_gradients, check_gradients
     from compare.claims.process import Process
     from compare.files.score import score
-    from compare.methods.step_function import method
+    from compare.methods.own.step_function import method
     from compare.scored import energy_drift, error_vs_n
 
 __all__ = [
@@ -62,7 +62,7 @@ _HOMES = {
     "check_gradients": "compare.claims.gradients",
     "energy_drift": "compare.scored",
     "error_vs_n": "compare.scored",
-    "method": "compare.methods.step_function",
+    "method": "compare.methods.own.step_function",
     "score": "compare.files.score",
 }
 

@@ -11,7 +11,7 @@ from compare.show.render import FORMATS
 from reference.command.terminal import one_of
 from reference.command.values import as_written, number, pair, several, text, whole
 from reference.family import LEAST_N
-from reference.names import unknown
+from reference.names import short, unknown
 
 if TYPE_CHECKING:
     import argparse
@@ -19,9 +19,19 @@ if TYPE_CHECKING:
 
     from reference.family import End, Family
 
-__all__ = ["FamilyOptions", "families_of", "inputs_given", "inputs_offered"]
+__all__ = [
+    "NONE",
+    "FamilyOptions",
+    "families_of",
+    "inputs_given",
+    "inputs_offered",
+    "methods_given",
+    "methods_offered",
+]
 
 SEVERAL: dict[str, Any] = {"action": "append", "metavar": "A,B"}
+NONE = ("none",)
+"""What asks for no method, or for no solver."""
 
 
 def families_of(words: Sequence[str]) -> tuple[Family, ...]:
@@ -59,6 +69,40 @@ def inputs_offered(families: Sequence[Family], parser: argparse.ArgumentParser) 
                 parser.add_argument(
                     f"--{name}", action="append", metavar=metavar, help=offered[name].replace("%", "%%")
                 )
+
+
+def methods_offered(parser: argparse.ArgumentParser, default: str) -> None:
+    """Add the options that choose methods, the user's own among them."""
+    told = f"methods by name (default {default}; see 'list'), or all, or none; may repeat"
+    parser.add_argument("--methods", **SEVERAL, help=told)
+    own = "a function of your own beside them, FILE.py:STEP: (f, y, h), (f, t, y, h), (q, p, force, h) or (f, y0, t); "
+    parser.add_argument("--method", action="append", metavar="MODULE:STEP", help=f"{own}may repeat")
+    order = "the order that it claims, or of several --method each one's"
+    parser.add_argument("--claims", action="append", metavar="P,Q", help=order)
+
+
+def methods_given(known: argparse.Namespace) -> dict[str, Any]:
+    """The methods that were asked for, by name, and the user's own as they are; nothing where none is named.
+
+    Raises:
+        ValueError, FileNotFoundError, ImportError: one of the user's own is not there, or is no method.
+    """
+    named = None if known.methods is None else several("methods", known.methods, text)
+    if known.method is None:
+        if known.claims is not None:
+            raise ValueError("--claims is the order of a function of your own; --method MODULE:STEP says which.")
+        return {} if named is None else {"methods": () if named == NONE else named}
+    from compare.methods import DEFAULT, own_methods
+
+    pieces = [piece.strip() for word in known.claims or () for piece in word.split(",")]
+    own = own_methods(known.method, [_order(piece) for piece in pieces])
+    return {"methods": (*(DEFAULT if named is None else () if named == NONE else named), *own)}
+
+
+def _order(piece: str) -> int:
+    if not piece.isdecimal() or not int(piece):
+        raise ValueError(f"--claims '{short(piece)}' is no order; a positive integer is accepted.")
+    return int(piece)
 
 
 def _typed(value: Any) -> str:
@@ -117,9 +161,7 @@ class FamilyOptions:
             parser.add_argument("--form", **SEVERAL, help=f"forms of the equations: {told}")
         for name, end in self._ends.items():
             parser.add_argument(f"--{name.replace('_', '-')}", metavar=name.partition("_")[0].upper(), help=end.help)
-        parser.add_argument(
-            "--methods", **SEVERAL, help="methods by name (default twelve; see 'list'), or all; may repeat"
-        )
+        methods_offered(parser, "twelve")
         powers = f"{LEAST_N}, {2 * LEAST_N}, ... {comparison.largest}"
         parser.add_argument("--n", **SEVERAL, help=f"numbers of steps (default {powers}); may repeat")
         scores = f"{', '.join(SCORES)} (default {', '.join(DEFAULT_SCORES)})"
@@ -145,11 +187,12 @@ class FamilyOptions:
         for name in self._ends:
             if getattr(known, name) is not None:
                 given[name] = (as_written if known.exact else number)(getattr(known, name), name.replace("_", "-"))
-        readers: dict[str, Callable[[str, str], Any]] = {"methods": text, "n": whole, "scores": text}
+        readers: dict[str, Callable[[str, str], Any]] = {"n": whole, "scores": text}
         readers |= {"form": text} if self._forms else {}
         for name, read in readers.items():
             if getattr(known, name) is not None:
                 given[name] = several(name, getattr(known, name), read)
+        given |= methods_given(known)
         if known.precision is not None:
             given["precision"] = known.precision
         if known.compensated:

@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
-from compare.march.march import fits
+from compare.march.lanewise import obstacle
+from compare.march.march import fits, lacking
 from compare.march.precision import precision as find_precision
 from compare.measure.cases import case_of
 from compare.measure.growth import GROWTH_SAMPLES
@@ -34,7 +35,7 @@ if TYPE_CHECKING:
     from compare.measure.records import Case, Cell, Drift, FittedOrder
     from compare.methods.kinds.one_step import Method
 
-__all__ = ["DEFAULT_N", "Scored", "energy_drift", "error_vs_n", "named", "score_all", "some"]
+__all__ = ["DEFAULT_N", "Scored", "energy_drift", "error_vs_n", "manner", "named", "score_all", "some"]
 
 DEFAULT_N = tuple(2**k for k in range(7, 21))
 MAX_N = 10**10
@@ -53,6 +54,7 @@ class Scored:
         samples: at how many of its steps a march is compared, at most.
         found: records by the name of their table.
         left_out: methods that do not fit a problem, by the problem's label.
+        own: how each of the user's own was marched, by its name.
     """
 
     methods: tuple[Method, ...]
@@ -63,6 +65,7 @@ class Scored:
     samples: int
     found: Found
     left_out: dict[str, tuple[str, ...]]
+    own: dict[str, str]
 
     @property
     def cells(self) -> tuple[Cell, ...]:
@@ -155,11 +158,15 @@ def score_all(
     courses = [
         Course(problem, k, end, fmt, samples) for problem, end in zip(problems, ends, strict=True) for k in counts
     ]
+    _hold_own(chosen, courses, fmt)
     for course in courses:
         course.truth, course.neighbour.truth, course.conditioning  # noqa: B018 - computed once, before processes share it
     fitting = {method.name: [course for course in courses if fits(method, course.problem)] for method in chosen}
     if not any(fitting.values()):
-        raise ValueError(f"none of {', '.join(fitting)} fits {problems[0]!r}; others, such as rk4, are accepted.")
+        alone = f": it {lacking(chosen[0], courses[0].problem)}" if len(chosen) == 1 else ""
+        raise ValueError(
+            f"none of {', '.join(fitting)} fits {problems[0]!r}{alone}; others, such as rk4, are accepted."
+        )
     results = _in_order_of_work(chosen, fitting, (fmt, wanted), executor, progress)
     tables = ("error_vs_n", "energy_drift", *(name for name in wanted if name in EXTRAS))
     found = {table: [record for method in chosen for record in results[method.name][table]] for table in tables}
@@ -167,7 +174,34 @@ def score_all(
         case_of(problem).label: tuple(method.name for method in chosen if not fits(method, problem))
         for problem in problems
     }
-    return Scored(chosen, tuple(problems), ends, fmt, wanted, samples, found, left_out)
+    marched = {
+        one.name: manner(one, [course.problem for course in courses], fmt)
+        for one in chosen
+        if one.opaque and fitting[one.name]
+    }
+    return Scored(chosen, tuple(problems), ends, fmt, wanted, samples, found, left_out, marched)
+
+
+def manner(method: Method, problems: Sequence[Problem], fmt: Precision) -> str:
+    """How a method of the user's own is marched on problems that it fits."""
+    reasons = dict.fromkeys(obstacle(method, problem, fmt) for problem in dict.fromkeys(problems))
+    return "; ".join(f"state by state: {why}" if why else "compiled" for why in reasons)
+
+
+def _hold_own(methods: Sequence[Method], courses: Sequence[Course], fmt: Precision) -> None:
+    """Try the methods of the user's own on every problem, before anything is computed.
+
+    Raises:
+        ValueError: two methods have one name, or one does not work on a problem.
+    """
+    names = [method.name for method in methods]
+    for method in methods:
+        if names.count(method.name) > 1:
+            raise ValueError(f"two methods are called {method.name}; different names are accepted.")
+    for problem in dict.fromkeys(course.problem for course in courses):
+        for method in methods:
+            if fits(method, problem):
+                obstacle(method, problem, fmt)
 
 
 def named(methods: Sequence[str | Method] | None) -> tuple[Method, ...]:
@@ -249,7 +283,8 @@ def _in_order_of_work(
     interpreter's lock.
     """
     by_work = sorted(
-        methods, key=lambda method: (method.family != "implicit", -method.evaluations(1)[0], -method.order)
+        methods,
+        key=lambda method: (not method.opaque, method.family != "implicit", -method.evaluations(1)[0], -method.order),
     )
     tasks = [(method, courses[method.name]) for method in by_work]
     scores: dict[str, Found] = {}

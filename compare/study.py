@@ -195,7 +195,7 @@ def _definition(problems: Sequence[Problem]) -> str:
 
 
 def _notes(scored: Scored) -> dict[str, Any]:
-    """What was not marched, what is lacking to be scored, and why."""
+    """What was not marched, how the user's own was, what is lacking to be scored, and why."""
     where: dict[tuple[str, ...], list[str]] = {}
     for label, names in scored.left_out.items():
         if names:
@@ -205,6 +205,8 @@ def _notes(scored: Scored) -> dict[str, Any]:
     found: dict[str, Any] = {}
     if notes:
         found["left out"] = "what splits kicks from drifts, or keeps an energy: " + "; ".join(notes)
+    if any(scored.own.values()):
+        found["own methods"] = scored.own
     if any(lacking.values()):
         found["lacking"] = {label: scores for label, scores in lacking.items() if scores}
     return found

@@ -2,20 +2,22 @@
 
 from __future__ import annotations
 
+import hashlib
 import importlib
 import importlib.util
+import secrets
 import sys
 from contextlib import contextmanager
 from pathlib import Path
+from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
 from reference.names import short, unknown
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
-    from types import ModuleType
 
-__all__ = ["EQUATION", "is_own", "named", "with_equations"]
+__all__ = ["EQUATION", "is_own", "named", "program", "program_at", "with_equations"]
 
 EQUATION = ".toml"
 """How the name of a file with an equation ends."""
@@ -66,7 +68,7 @@ def named(name: str, what: str, example: str, fits: Callable[[Any], bool]) -> An
     home, colon, attribute = name.rpartition(":")
     if not (colon and home and attribute):
         raise ValueError(f"'{short(name)}' names no {what}; MODULE:{example} or FILE.py:{example} is accepted.")
-    found: Any = _file(Path(home)) if home.endswith(".py") else _module(home)
+    found: Any = _at(home)
     for part in attribute.split("."):
         if not hasattr(found, part):
             known = [one for one, value in vars(found).items() if fits(value) and not one.startswith("_")]
@@ -75,6 +77,39 @@ def named(name: str, what: str, example: str, fits: Callable[[Any], bool]) -> An
     if not fits(found):
         raise ValueError(f"{attribute} in {home} is of type {type(found).__name__}; a {what} is accepted.")
     return found
+
+
+def program_at(name: str) -> tuple[str, str]:
+    """What tells the program behind MODULE:NAME or FILE.py:NAME: of the module itself, and of all that is his."""
+    home = _at(name.rpartition(":")[0])
+    path = Path(vars(home).get("__file__") or "")
+    return hashlib.sha256(path.read_bytes()).hexdigest() if path.is_file() else "", program(home)
+
+
+def program(home: ModuleType | None) -> str:
+    """What tells the program of a module of the user's own from what it was, or will be, when it is changed.
+
+    That is a hash of his modules as far as they are loaded: those of the same package, or beside the same file.  Of
+    what stands in no file it is a number that never comes again.
+    """
+    modules = [one for one in [*sys.modules.values()] if isinstance(one, ModuleType)]
+    files = {one.__name__: Path(vars(one).get("__file__") or "") for one in modules}
+    if home is None or not files[home.__name__].name:
+        return secrets.token_hex()
+    package, folder = home.__name__.partition(".")[0], files[home.__name__].parent
+    own = {
+        path
+        for name, path in files.items()
+        if path.name and (name.partition(".")[0] == package or path.parent == folder)
+    }
+    digest = hashlib.sha256()
+    for path in sorted(own):
+        digest.update(hashlib.sha256(path.read_bytes()).digest())
+    return digest.hexdigest()
+
+
+def _at(home: str) -> ModuleType:
+    return _file(Path(home)) if home.endswith(".py") else _module(home)
 
 
 def _module(name: str) -> ModuleType:

@@ -8,21 +8,17 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from compare.claims.frames import Field, MisuseError
-from compare.claims.jitted import is_jitted, jitted
-from reference.names import printable
+from compare.methods.own.adapters import hold_times, solution_of
+from compare.methods.own.hosting import MAX_CALLS, kind_of, real_numbers, told
+from compare.methods.own.jitted import is_jitted, jitted
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from compare.claims.forms import Form
     from compare.claims.frames import Scene
+    from compare.methods.own.forms import Form
 
-__all__ = ["Candidate", "axes"]
-
-MAX_CALLS = 10_000
-"""Calls of f that one step, or each time of a grid, may take."""
-MOST_TOLD = 400
-"""Characters of what a user's exception says that are repeated."""
+__all__ = ["Candidate"]
 
 
 @dataclass(frozen=True)
@@ -85,15 +81,10 @@ class Candidate:
         Raises:
             MisuseError: the function raised something, or gave no such states.
         """
-        found, times = _solution(self.called({"f": field, "y": y.copy(), "grid": grid.copy()}))
-        array = self.numbers(found, f"{self.name} on {len(grid)} times")
+        found, times = solution_of(self.called({"f": field, "y": y.copy(), "grid": grid.copy()}))
+        array = real_numbers(found, f"{self.name} on {len(grid)} times")
         if times is not None:
-            own = self.numbers(times, f"{self.name} on {len(grid)} times")
-            if own.shape != grid.shape or np.max(np.abs(own - grid)) > SAME_TIME * np.max(np.abs(np.diff(grid))):
-                raise MisuseError(
-                    f"{self.name} gave the states at {own.size} times of its own, where {len(grid)} from "
-                    f"{grid[0]:.4g} to {grid[-1]:.4g} were asked for; the states at those are accepted."
-                )
+            hold_times(real_numbers(times, f"{self.name} on {len(grid)} times"), grid, self.name)
         if array.shape == (len(y), len(grid)) and len(y) != len(grid):
             array = array.T
         if array.shape != (len(grid), len(y)):
@@ -102,26 +93,6 @@ class Candidate:
                 f"({len(grid)}, {len(y)}) is accepted, a state for each time."
             )
         return array
-
-    def numbers(self, found: Any, what: str) -> np.ndarray:
-        """What a call returned, as an array of finite doubles.
-
-        Raises:
-            MisuseError: it is something else.
-        """
-        if found is None:
-            raise MisuseError(f"{what} returned nothing; the new state is accepted.")
-        try:
-            array = np.asarray(found)
-        except ValueError:
-            raise MisuseError(f"{what} returned a ragged sequence; a state as it was given is accepted.") from None
-        except MemoryError:
-            raise MisuseError(f"{what} returned a sequence that no memory holds; a state is accepted.") from None
-        if array.dtype.kind == "c":
-            raise MisuseError(f"{what} returned complex numbers; real ones are accepted.")
-        if array.dtype.kind not in "fiu":
-            raise MisuseError(f"{what} returned {_kind(found)}; an array of real numbers is accepted.")
-        return array.astype(np.float64)
 
     def called(self, values: dict[str, Any]) -> Any:
         """What the function returns, given the values of its roles.
@@ -137,45 +108,18 @@ class Candidate:
         except MisuseError:
             raise
         except (Exception, SystemExit) as error:
-            told = _told(error)
-            raise MisuseError(f"{self.name} raised {type(error).__name__}{': ' * bool(told)}{told}.") from error
+            raise MisuseError(f"{self.name} raised {told(error)}.") from error
 
     def _joined(self, found: Any, y: Any) -> Any:
         """The new positions and momenta of a separable step as one state."""
         if not isinstance(found, (tuple, list, np.ndarray)) or len(found) != 2:
             raise MisuseError(
-                f"{self.name} returned {_kind(found)}; the new positions and momenta (q, p) are accepted."
+                f"{self.name} returned {kind_of(found)}; the new positions and momenta (q, p) are accepted."
             )
         if y.dtype == object:
             return np.concatenate([np.atleast_1d(np.asarray(part, dtype=object)) for part in found])
-        parts = [self.numbers(part, self.name) for part in found]
+        parts = [real_numbers(part, self.name) for part in found]
         return np.concatenate([part.reshape(-1, *y.shape[1:]) for part in parts])
-
-
-SAME_TIME = 1e-6
-"""A time within so much of a step is the same."""
-STATES = "y ys u us x xs states state"
-TIMES = "t ts times time"
-"""What solutions call them."""
-
-
-def axes(value: Any) -> int:
-    """How many axes a value has; none is None's."""
-    return -1 if value is None else int(np.ndim(value))
-
-
-def _solution(found: Any) -> tuple[Any, Any]:
-    """The states of what a whole integrator returned, and its times, None where it gives none."""
-    if isinstance(found, (tuple, list)) and len(found) == 2 and axes(found[0]) == 1 and axes(found[1]) == 2:
-        return found[1], found[0]
-    states = _attribute(found, STATES, 2)
-    return (found, None) if states is None else (states, _attribute(found, TIMES, 1))
-
-
-def _attribute(found: Any, names: str, count: int) -> Any:
-    """The first attribute of these names that has so many axes, or None."""
-    values = (getattr(found, name, None) for name in names.split())
-    return next((value for value in values if axes(value) == count), None)
 
 
 class _Forces:
@@ -197,16 +141,3 @@ class _Gradients(_Forces):
 
     def __call__(self, q: Any) -> Any:
         return -super().__call__(q)
-
-
-def _told(error: BaseException) -> str:
-    """What an exception says, in one line of no more than MOST_TOLD characters; nothing where it cannot say it."""
-    try:
-        told = printable(" ".join(str(error)[: MOST_TOLD + 1].split()))
-    except (Exception, SystemExit):  # noqa: BLE001 - a user's own __str__ may raise anything
-        return ""
-    return f"{told[:MOST_TOLD]}..." if len(told) > MOST_TOLD else told
-
-
-def _kind(found: Any) -> str:
-    return f"an array of {found.dtype}" if isinstance(found, np.ndarray) else f"a {type(found).__name__}"

@@ -12,14 +12,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from compare.claims import local, stiffness, tolerances
-from compare.claims.adapters import adapted, with_arguments
 from compare.claims.candidate import Candidate
 from compare.claims.coefficients import slip
 from compare.claims.consistency import advance_of_a_constant_slope, iterates, uses
-from compare.claims.deadline import TimeOut, deadline
 from compare.claims.defects import Evidence, reversibility, symplecticity
 from compare.claims.energy import kept
-from compare.claims.engine import Lanes, Steps, Traced, Whole, chosen, repeatable
+from compare.claims.engine import Lanes, Steps, Traced, Whole, chosen
 from compare.claims.findings import Claims
 from compare.claims.frames import Exhausted, Frame, MisuseError, Scene
 from compare.claims.half_step import half_step
@@ -31,6 +29,9 @@ from compare.claims.order import ladder, measured
 from compare.claims.powers import lower, powers
 from compare.claims.record import Check
 from compare.claims.tolerances import RTOLS, with_tolerance
+from compare.methods.own.adapters import adapted, with_arguments
+from compare.methods.own.deadline import TimeOut, deadline
+from compare.methods.own.hosting import repeatable
 from reference.arithmetic.underflow import require_gradual
 
 if TYPE_CHECKING:
@@ -94,7 +95,7 @@ def check(
         step: ``step(f, y, h)`` gives the state a step later; ``step(f, t, y, h)`` if it takes the time;
             ``step(q, p, force, h)`` gives (q, p); ``integrate(f, y0, t)`` the states at the times of a grid.  ``f`` is
             called as f(y) or f(t, y), and gives an array of y's shape, components in the order of the problem's state.
-            A class, a generator or a solver over a span of time is called as ``compare.claims.adapters`` says, and
+            A class, a generator or a solver over a span of time is called as ``compare.methods.own.adapters`` says, and
             ``step(y, h)`` has the equation of the problem built in.
         order: the order that is claimed, or None.
         symplectic: whether it is claimed to be symplectic.
@@ -307,7 +308,7 @@ def _hint(found: Check, candidate: Candidate, marcher: Marcher, t_end: float) ->
         place = half_step(marcher, t_end)
         if place is not None:
             return f"of order 2 with {place}: half a step parts them"
-    return slip(candidate, claim)
+    return slip(candidate, marcher.scene, claim)
 
 
 def _marcher(candidate: Candidate, scene: Scene, h: float) -> tuple[Marcher, float, bool, str]:
@@ -332,7 +333,7 @@ def _trial(candidate: Candidate, scene: Scene, h: float) -> tuple[float, bool]:
         raise MisuseError(f"{candidate.name} returned states that are not finite; finite numbers are accepted.")
     calls = field.calls / TRIAL_TIMES
     candidate.states(candidate.field(scene, TRIAL_TIMES), 0.9 * scene.start, grid)
-    repeatable(candidate, first, candidate.states(candidate.field(scene, TRIAL_TIMES), scene.start, grid))
+    repeatable(candidate.name, first, candidate.states(candidate.field(scene, TRIAL_TIMES), scene.start, grid))
     return calls, field.timed
 
 

@@ -14,22 +14,25 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from compare.claims.engine import Lanes
 from compare.methods import METHODS
 from compare.methods.kinds.one_step import Splitting, Tableau
 from compare.methods.order.algebraic import enclose
 from compare.methods.order.rooted_trees import ElementaryWeights, density, trees
+from reference.arithmetic.namespaces import NUMPY
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from compare.claims.candidate import Candidate
+    from compare.claims.frames import Scene
 
 __all__ = ["slip"]
 
 MOST = 40
 """Stages, at most."""
-SAME = 1e-11
-"""Coefficients that differ by less are the same."""
+SAME, ALIKE = 1e-11, 1e-9
+"""Coefficients that differ by less are the same, and states that a step gives."""
 FEW = 2
 """A method with no more coefficients than these beside those of a known one is that one with a slip."""
 CONDITIONS = 6
@@ -46,7 +49,7 @@ class _Read:
     rows: tuple[tuple[float, ...], ...]
 
 
-def slip(candidate: Candidate, order: float) -> str | None:
+def slip(candidate: Candidate, scene: Scene, order: float) -> str | None:
     """Which coefficient of a step is wrong, if that is known; ``order`` is the one that it should have."""
     try:
         read = _splitting(candidate) if candidate.form.separable else _tableau(candidate)
@@ -56,6 +59,8 @@ def slip(candidate: Candidate, order: float) -> str | None:
         return None
     if read.by_square:
         return f"{read.by_square[0]} goes with h^2, where it should go with h"
+    if not _is_that_method(candidate, scene, read):
+        return None
     if not candidate.form.separable and (told := _wrong_time(read)):
         return told
     return _near_a_known_one(read, order, splitting=candidate.form.separable) or _condition(read, order)
@@ -133,6 +138,41 @@ def _checked(
     if not all(_same(twice[name], 2 * values[name]) for name in others):
         return None
     return _Read(values, by_square, nodes, tuple(map(tuple, rows)))
+
+
+def _is_that_method(candidate: Candidate, scene: Scene, read: _Read) -> bool:
+    """Whether these coefficients make the step on the motion too: it may treat its components in different ways."""
+    h, y = scene.step, scene.start
+    found = Lanes(candidate, scene).one(y, h, 0.0)
+    with np.errstate(all="ignore"):
+        again = _stepped(scene, read, y, h) if read.rows else _flowed(scene, read, y, h)
+    return bool(np.all(np.abs(found - again) <= ALIKE * (1 + np.abs(found))))
+
+
+def _rates(scene: Scene, t: float, y: np.ndarray) -> np.ndarray:
+    return np.array(scene.rates(NUMPY, t, tuple(y)))
+
+
+def _stepped(scene: Scene, read: _Read, y: np.ndarray, h: float) -> np.ndarray:
+    """A Runge-Kutta step."""
+    slopes: list[np.ndarray] = []
+    nodes = read.nodes or (0.0,) * (len(read.rows) - 1)
+    for node, row in zip(nodes, read.rows, strict=False):
+        stage = y + h * sum((a * k for a, k in zip(row, slopes, strict=False)), np.zeros(len(y)))
+        slopes.append(_rates(scene, node * h, stage))
+    found: np.ndarray = y + h * sum((b * k for b, k in zip(read.rows[-1], slopes, strict=True)), np.zeros(len(y)))
+    return found
+
+
+def _flowed(scene: Scene, read: _Read, y: np.ndarray, h: float) -> np.ndarray:
+    """A step of drifts and kicks in turn, of q' = p."""
+    y, half = y.copy(), scene.problem.positions
+    kicks = [weight for name, weight in read.values.items() if name.startswith("kick")]
+    drifts = [weight for name, weight in read.values.items() if name.startswith("drift")]
+    for drift, kick in zip(drifts, [*kicks, 0.0], strict=True):
+        y[:half] += h * drift * y[half:]
+        y[half:] += h * kick * _rates(scene, 0.0, y)[half:]
+    return y
 
 
 def _same(one: float, other: float) -> bool:

@@ -11,7 +11,15 @@ import numpy as np
 from compare.claims.engine import Steps, Traced, trial_states
 from compare.claims.frames import MisuseError
 from compare.march.precision import precision
-from compare.measure.defects import canonical_places, largest_change, symplectic_changes, symplectic_form
+from compare.measure.defects import (
+    CONFINED_SPACING,
+    SPACING,
+    STENCIL,
+    canonical_places,
+    largest_change,
+    symplectic_changes,
+    symplectic_form,
+)
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -36,11 +44,6 @@ NUDGE, CARRIED = 2.0**-30, 16
 rounding; so many of those are taken for rounding where that is far, as on an unstable motion."""
 STEPS_OF_A_GRID = 12
 """Steps over which a whole integrator's map is differentiated: its first ones may be another method's."""
-STENCIL = (5 / 6, -5 / 21, 5 / 84, -5 / 504, 1 / 1260)
-"""f'(x) = sum_k c_k (f(x + k d) - f(x - k d))/d, k = 1 ... 5, to order 10 (B. Fornberg, Math. Comp. 51, 1988, 699)."""
-SPACING, CONFINED_SPACING = 1 / 50, 1 / 200
-"""d over the size of the component: then rounding and truncation are both near 1e-14; the second where a singularity
-may be near."""
 
 
 @dataclass(frozen=True)

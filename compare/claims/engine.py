@@ -14,6 +14,7 @@ import numpy as np
 
 from compare.claims.frames import Exhausted, MisuseError
 from compare.march.trace import slopes_of
+from compare.methods.own.hosting import real_numbers, repeatable
 from reference.arithmetic.compiler import hy
 
 if TYPE_CHECKING:
@@ -22,7 +23,7 @@ if TYPE_CHECKING:
     from compare.claims.candidate import Candidate
     from compare.claims.frames import Scene
 
-__all__ = ["Arrays", "Engine", "Lanes", "Marcher", "Steps", "Traced", "Whole", "chosen", "repeatable", "trial_states"]
+__all__ = ["Arrays", "Engine", "Lanes", "Marcher", "Steps", "Traced", "Whole", "chosen", "trial_states"]
 
 
 class Marcher(Protocol):
@@ -146,7 +147,7 @@ class Lanes:
         """
         self.field.calls = 0
         found = self.candidate.step(self.field, y, h, t)
-        array = self.candidate.numbers(found, self.candidate.name)
+        array = real_numbers(found, self.candidate.name)
         if array.shape != y.shape:
             raise MisuseError(
                 f"{self.candidate.name} returned an array of shape {array.shape} for a state of shape {y.shape}; "
@@ -170,7 +171,7 @@ class Arrays:
             MisuseError: the step does not work on arrays.
         """
         self.field.calls = 0
-        found = self.candidate.numbers(self.candidate.step(self.field, y, h, t), self.candidate.name)
+        found = real_numbers(self.candidate.step(self.field, y, h, t), self.candidate.name)
         if found.shape != y.shape:
             raise MisuseError(f"{self.candidate.name} does not keep the shape of lanes.")
         return found
@@ -241,7 +242,7 @@ def chosen(candidate: Candidate, scene: Scene, h: float) -> tuple[Engine, int, b
         calls = max(calls, plain.field.calls)
     again = [plain.one(y[:, i], float(sizes[i]), float(times[i])) for i in reversed(range(TRIALS))]
     for before, after in zip(answers, reversed(again), strict=True):
-        repeatable(candidate, before, after)
+        repeatable(candidate.name, before, after)
     expected = np.stack(answers, axis=1)
     for kind in (Traced, Arrays):
         engine = _trusted(kind, candidate, scene, (y, sizes, times), expected)
@@ -259,22 +260,8 @@ def _repeatable(plain: Lanes, y: np.ndarray, h: float, t: float) -> np.ndarray:
             f"{plain.candidate.name} returned {found.tolist()} for y = ({state}) and h = {h:.4g}; "
             "finite numbers are accepted."
         )
-    repeatable(plain.candidate, found, plain.one(y, h, t))
+    repeatable(plain.candidate.name, found, plain.one(y, h, t))
     return found
-
-
-def repeatable(candidate: Candidate, before: np.ndarray, after: np.ndarray) -> None:
-    """Hold two answers to one question against each other.
-
-    Raises:
-        MisuseError: they differ.
-    """
-    if not np.array_equal(before, after):
-        first, second = (answer.ravel()[-2:].tolist() for answer in (before, after))
-        raise MisuseError(
-            f"{candidate.name} gave {first} and then {second} for the same state and step: it is not deterministic, or "
-            "keeps something from call to call; a function of its arguments alone is accepted."
-        )
 
 
 def _trusted(

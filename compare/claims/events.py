@@ -8,12 +8,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from compare.claims.deadline import TimeOut, deadline
-from compare.claims.forms import role_of
 from compare.claims.frames import Exhausted, Field, MisuseError, Scene
 from compare.claims.limits import SECONDS
 from compare.claims.motion import motion
 from compare.claims.verdicts import Tried, Verdict
+from compare.methods.own.deadline import TimeOut, deadline
+from compare.methods.own.forms import role_of
 from reference.arithmetic.namespaces import NUMPY
 
 if TYPE_CHECKING:

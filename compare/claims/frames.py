@@ -18,6 +18,7 @@ import numpy as np
 
 from compare.claims.expansion import Expansion
 from compare.measure.truth import errors_of_doubles
+from compare.methods.own.hosting import Exhausted, MisuseError
 from reference.arithmetic.compiler import hy
 from reference.arithmetic.namespaces import JAX, NUMPY, Heyoka
 from reference.once import cached_property
@@ -47,14 +48,6 @@ AGREEMENT = 1e-12
 def nonzero(sizes: np.ndarray) -> np.ndarray:
     """Sizes to divide by: 1 for what is always zero."""
     return np.where(sizes > 0, sizes, 1.0)
-
-
-class MisuseError(ValueError):
-    """A user's function is not what can be checked; its text is one sentence."""
-
-
-class Exhausted(BaseException):
-    """A user's function asked for more than it may: no ``except Exception`` of its own keeps it."""
 
 
 class Field:

@@ -11,11 +11,11 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from compare.claims.deadline import TimeOut, deadline
 from compare.claims.frames import MisuseError, Scene
 from compare.claims.limits import SECONDS
 from compare.claims.motion import motion
 from compare.claims.verdicts import Tried, Verdict
+from compare.methods.own.deadline import TimeOut, deadline
 from reference.arithmetic.namespaces import NUMPY
 from reference.flow import Flow
 from reference.names import unknown

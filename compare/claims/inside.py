@@ -79,7 +79,7 @@ def _identity(handle: int) -> tuple[int, int] | None:
 
 def _answer(line: _Line, request: dict[str, Any]) -> dict[str, Any]:
     """The check as text with its exit code, or why it is refused."""
-    from compare.claims.forms import loaded
+    from compare.methods.own.forms import loaded
     from reference.command.terminal import sentence
 
     options = request["options"]

@@ -18,11 +18,11 @@ import numpy as np
 from compare.claims.candidate import Candidate
 from compare.claims.engine import Lanes
 from compare.claims.findings import ORDER_MARGIN, WIDEST
-from compare.claims.forms import form_of
 from compare.claims.frames import MisuseError
 from compare.claims.order import Cell, Order, fitted
 from compare.claims.points import Points
 from compare.claims.verdicts import Verdict
+from compare.methods.own.forms import form_of
 from reference.arithmetic.namespaces import NUMPY
 
 if TYPE_CHECKING:

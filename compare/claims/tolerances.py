@@ -15,10 +15,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from compare.claims.findings import WIDEST
-from compare.claims.forms import role_of
 from compare.claims.frames import MisuseError, nonzero
 from compare.claims.verdicts import Verdict
 from compare.measure.order_fit import slope_with_interval
+from compare.methods.own.forms import role_of
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence

@@ -27,12 +27,17 @@ if TYPE_CHECKING:
     from reference.orbits import Orbits, Place
     from reference.row_domains import Domain
 
-__all__ = ["autonomous"]
+__all__ = ["autonomous", "clock_of"]
 
 
 def autonomous(problem: Problem) -> Problem:
     """The problem itself, or where its equation depends on the time the same with the time in its state."""
     return problem if problem.autonomous else _WithTime(problem)
+
+
+def clock_of(problem: Problem) -> int | None:
+    """Where ``autonomous`` has put the time into the state; None where it has not."""
+    return problem.place if isinstance(problem, _WithTime) else None
 
 
 @dataclass(frozen=True, repr=False)
@@ -45,10 +50,10 @@ class _WithTime(Problem):
         inner = self.inner
         space, components = inner.space, list(inner.space.components)
         time = next(name for name in ("t", "time", "instant") if name not in components)
-        components.insert(self._place, time)
+        components.insert(self.place, time)
         odd = None if space.odd is None else (*space.odd, time)
         intervals = list(inner.trial.states)
-        intervals.insert(self._place, (0.0, 3.0))
+        intervals.insert(self.place, (0.0, 3.0))
         declared = {
             "name": inner.name,
             "rows": inner.rows,
@@ -61,7 +66,7 @@ class _WithTime(Problem):
             object.__setattr__(self, name, value)
 
     @property
-    def _place(self) -> int:
+    def place(self) -> int:
         """Where the time stands."""
         return self.inner.positions or len(self.inner.space.components)
 
@@ -78,10 +83,10 @@ class _WithTime(Problem):
 
     def _split(self, y: Sequence[Any]) -> tuple[Any, list[Any]]:
         """The time, and the state without it."""
-        return y[self._place], [*y[: self._place], *y[self._place + 1 :]]
+        return y[self.place], [*y[: self.place], *y[self.place + 1 :]]
 
     def _with(self, state: Sequence[Any], time: Any) -> tuple[Any, ...]:
-        return *state[: self._place], time, *state[self._place :]
+        return *state[: self.place], time, *state[self.place :]
 
     @property
     def original(self) -> Problem:
@@ -146,7 +151,7 @@ class _WithTime(Problem):
         if name != "state":
             return found
         independent = self.inner.space.independent or "1"
-        time = Quantity(self.state_names[self._place], independent, "time", "t")
+        time = Quantity(self.state_names[self.place], independent, "time", "t")
         return replace(found, quantities=self._with(found.quantities, time))
 
     def certified(self, row: str, argument: Any = None, component: int = 0) -> Certified:
@@ -172,7 +177,7 @@ class _WithTime(Problem):
 
     def orbits(self) -> Orbits | None:
         known = self.inner.orbits()
-        return None if known is None else _OrbitsInTime(known, self._place)
+        return None if known is None else _OrbitsInTime(known, self.place)
 
     def state(self, t: Any, limbs: int = 1) -> np.ndarray:
         """The proven state, and the time itself to as many limbs."""
@@ -180,7 +185,7 @@ class _WithTime(Problem):
         times, shape = exact_array(t, "t")
         parts = np.array([exact_limbs(time, limbs) for time in times]).reshape(*shape, limbs)
         own = parts[..., 0] if limbs == 1 else parts
-        return np.insert(found, self._place, own, axis=len(shape))
+        return np.insert(found, self.place, own, axis=len(shape))
 
 
 @dataclass(frozen=True)

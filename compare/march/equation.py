@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from compare.march.autonomous import clock_of
 from compare.methods.order.algebraic import Q
 from reference.arithmetic.compiler import hy
 from reference.arithmetic.dual import Dual, DualArithmetic
@@ -25,6 +26,9 @@ if TYPE_CHECKING:
     from reference.problem import Problem
 
 __all__ = ["BoundSystem", "FormatArithmetic", "plain_system"]
+
+TIME = "time at which the step begins"
+"""A symbol that no compiled block has a value for: what depends on it cannot be traced."""
 
 
 class FormatArithmetic:
@@ -58,7 +62,8 @@ class _Pi:
 class BoundSystem:
     """A problem's equation in one arithmetic, its parameters numbers of that arithmetic.
 
-    ``initial`` are the invariants at the start of the march.
+    ``initial`` are the invariants at the start of the march; ``time`` is that at which a step begins, to be set by who
+    knows it, where it does not stand in the state.  What was evaluated is counted in ``calls``.
 
     Raises:
         ValueError: the equation depends on the time, which stands outside of its state.
@@ -71,6 +76,9 @@ class BoundSystem:
             raise ValueError(f"{problem!r} depends on the time; compare.march.autonomous makes it a component.")
         self.dimension = len(problem.state_names)
         self.positions = problem.positions
+        self.clock = clock_of(problem)
+        self.time: Any = hy.expression(TIME) if isinstance(m, Heyoka) else 0.0
+        self.calls = 0
         self.initial = tuple(initial)
         self._problem: Any = problem
         self._m = m
@@ -91,12 +99,14 @@ class BoundSystem:
         return self._m.terms(values) if isinstance(self._m, Heyoka) else tuple(values)
 
     def derivative(self, y: State) -> State:
+        self.calls += 1
         return _plain(self._problem.derivative(self._m, NO_TIME, self._read(y), self._parameters))
 
     def velocity(self, momenta: State) -> State:
         return _plain(self._problem.velocity(self._m, self._read(momenta), self._parameters))
 
     def force(self, positions: State) -> State:
+        self.calls += 1
         return _plain(self._problem.force(self._m, NO_TIME, self._read(positions), self._parameters))
 
     def jet(self, y: State, order: int) -> list[State]:

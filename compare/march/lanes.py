@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
@@ -18,10 +18,31 @@ if TYPE_CHECKING:
     from compare.march.precision import Precision
     from reference.problem import Problem
 
-__all__ = ["Lane", "March", "StartInvariant", "drift_scales", "grain_of", "initial_invariants", "sample_steps"]
+__all__ = [
+    "CommonEquation",
+    "Lane",
+    "March",
+    "StartInvariant",
+    "drift_scales",
+    "grain_of",
+    "initial_invariants",
+    "sample_steps",
+]
 
 LONG_BLOCKS = (64, 32, 16)
 LONG_MARCH = 8192
+
+
+@dataclass(frozen=True)
+class CommonEquation:
+    """What problems must share to share compiled code: an equation, whatever its parameters."""
+
+    structure: Any
+    problem: Problem = field(compare=False)
+
+    @classmethod
+    def of(cls, problem: Problem) -> CommonEquation:
+        return cls(problem.structure, problem)
 
 
 @dataclass(frozen=True)

@@ -12,15 +12,16 @@ import math
 import sys
 import time
 from collections import defaultdict
-from dataclasses import dataclass, field
 from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from compare.march.block_size import Shape
-from compare.march.lanes import Lane, March, grain_of, initial_invariants
+from compare.march.lanes import CommonEquation, Lane, March, grain_of, initial_invariants
+from compare.march.lanewise import Lanewise, obstacle
 from compare.march.trace import carried, compile_block, entry_rows, plain_block
+from reference.arithmetic.namespaces import NUMPY
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -34,6 +35,7 @@ __all__ = [
     "converged",
     "fits",
     "iterations_for",
+    "lacking",
     "march",
     "march_alone",
 ]
@@ -55,11 +57,24 @@ def lacking(method: Method, problem: Problem) -> str:
     """What a method needs that the problem has not, in words; "" where it fits."""
     if method.separable_only and not problem.positions:
         return f"needs positions apart from momenta; {problem.name} is not separable"
+    if method.opaque and method.separable_only and not problem.original.autonomous:
+        return f"gives its force no time, on which {problem.name} depends"
+    if method.opaque and method.separable_only and not _moves_by_momenta(problem):
+        return f"takes p for the rate of q, which it is not in {problem.name}"
     if method.second_order_only and not problem.second_order:
         return f"marches q'' = F(q), which {problem.name} is not"
     if method.family == "conservative" and not problem.invariants:
         return f"keeps an invariant, and {problem.name} has none"
     return ""
+
+
+@lru_cache(maxsize=256)
+def _moves_by_momenta(problem: Problem) -> bool:
+    """Whether the momenta of a problem that splits are the rates of its positions, as is seen at some."""
+    split: Any = problem
+    momenta = [(3 * k + 2) / 7 for k in range(problem.positions)]
+    parameters = {name: float(value) for name, value in problem.parameters.items()}
+    return [float(rate) for rate in split.velocity(NUMPY, momenta, parameters)] == momenta
 
 
 def fits(method: Method, problem: Problem) -> bool:
@@ -112,7 +127,7 @@ def march_alone(method: Method, lanes: Sequence[Lane], fmt: Precision) -> list[t
 
 def _groups(
     method: Method, lanes: Sequence[Lane], fmt: Precision, among: Sequence[Lane] | None = None
-) -> Iterator[tuple[list[int], _Group]]:
+) -> Iterator[tuple[list[int], _Group | Lanewise]]:
     """The lanes, by their places, that share a compiled block, in order of falling N; each with its group."""
     groups = _sorted(method, lanes, fmt)
     known = groups if among is None else _sorted(method, among, fmt)
@@ -120,19 +135,22 @@ def _groups(
         mine = [lanes[i] for i in members]
         shared = [among[i] for i in known[key]] if among is not None and key in known else mine
         _, grain, iterations = key
-        yield members, _Group(method, mine, fmt, Shape.of(method, shared, fmt, grain, iterations))
+        if obstacle(method, mine[0].problem, fmt):
+            yield members, Lanewise(method, mine, fmt)
+        else:
+            yield members, _Group(method, mine, fmt, Shape.of(method, shared, fmt, grain, iterations))
 
 
-def _sorted(method: Method, lanes: Sequence[Lane], fmt: Precision) -> dict[tuple[_Equation, int, int], list[int]]:
+def _sorted(method: Method, lanes: Sequence[Lane], fmt: Precision) -> dict[tuple[CommonEquation, int, int], list[int]]:
     """The places of the lanes that can share a block, by (equation, grain, iterations), in order of falling N."""
-    groups: dict[tuple[_Equation, int, int], list[int]] = defaultdict(list)
+    groups: dict[tuple[CommonEquation, int, int], list[int]] = defaultdict(list)
     for i, lane in enumerate(lanes):
         if missing := lacking(method, lane.problem):
             raise ValueError(f"{method.name} {missing}.")
         iterations = iterations_for(method, lane.problem, float(lane.h), fmt.bits)
         grain = grain_of(lane.n)
         ends_of_blocks = math.gcd(*lane.samples) % grain == 0
-        groups[_Equation.of(lane.problem), grain if ends_of_blocks else 1, iterations].append(i)
+        groups[CommonEquation.of(lane.problem), grain if ends_of_blocks else 1, iterations].append(i)
     for members in groups.values():
         members.sort(key=lambda i: -lanes[i].n)
     return groups
@@ -144,20 +162,8 @@ def converged(change: float, states: np.ndarray, start: np.ndarray, fmt: Precisi
     return change <= CONVERGED * fmt.epsilon * size
 
 
-@dataclass(frozen=True)
-class _Equation:
-    """What problems must share to share a block: an equation, whatever its parameters."""
-
-    structure: Any
-    problem: Problem = field(compare=False)
-
-    @classmethod
-    def of(cls, problem: Problem) -> _Equation:
-        return cls(problem.structure, problem)
-
-
 @lru_cache(maxsize=64)
-def _compiled(method: Method, equation: _Equation, fmt: Precision, shape: Shape) -> Block:
+def _compiled(method: Method, equation: CommonEquation, fmt: Precision, shape: Shape) -> Block:
     """``compile_block``, kept: a study comes back to the same block with other lanes."""
     return compile_block(
         method,
@@ -181,7 +187,7 @@ class _Group:
         self.iterations = shape.iterations
         self.dimension, self.carried = len(lanes[0].problem.state_names), carried(lanes[0].problem)
         self.ends = np.array([lane.n for lane in lanes])
-        self.block = _compiled(method, _Equation.of(lanes[0].problem), fmt, shape)
+        self.block = _compiled(method, CommonEquation.of(lanes[0].problem), fmt, shape)
         self.states = self._room(lanes)
         self.maxima = np.zeros((len(lanes), self.carried))
         self.seconds = math.nan
@@ -299,6 +305,7 @@ class _Group:
         *drifts, change = map(float, self.maxima[i])
         if not converged(change, states, self.fmt.array(lane.start or lane.problem.start), self.fmt):
             states, drifts = np.full(states.shape, np.nan), [math.nan] * len(drifts)
-        per_step, once = self.method.evaluations(self.iterations)
+        declared = self.method.evaluations(self.iterations)
+        per_step, once = (self.block.calls, 0) if self.method.opaque else declared
         own = max(lane.n - self.method.starting_steps, 0)
         return March(states, tuple(drifts), per_step * own + once, self.method.jacobians(self.iterations) * own)

@@ -17,6 +17,7 @@ import numpy as np
 from compare.march.equation import BoundSystem, plain_system
 from compare.march.sine import LaneArithmetic
 from compare.methods.order.algebraic import Q
+from compare.methods.own.hosting import hosted
 from reference.arithmetic.compiler import hy, parameter_rows
 from reference.arithmetic.namespaces import Heyoka
 
@@ -27,7 +28,17 @@ if TYPE_CHECKING:
     from compare.methods.kinds.protocol import Method, State
     from reference.problem import Problem
 
-__all__ = ["Block", "Record", "TraceError", "carried", "compile_block", "entry_rows", "plain_block", "slopes_of"]
+__all__ = [
+    "Block",
+    "Record",
+    "TraceError",
+    "carried",
+    "compile_block",
+    "entry_rows",
+    "plain_block",
+    "random_points",
+    "slopes_of",
+]
 
 
 def slopes_of(step: Sequence[Any], variables: Sequence[Any]) -> np.ndarray:
@@ -51,7 +62,8 @@ class Block:
     Rows of the input are the state, the method's memory, then those that carry the running maxima: of each
     |invariant - start|, and of the change by the last iteration.  Rows of the output are the same: once, or with record
     "every" once per step with the values of that step in place of the maxima.  Parameter rows: h, the invariants at the
-    start, the parameters; of these the function takes those up to the last that occurs in it.
+    start, the parameters; of these the function takes those up to the last that occurs in it.  ``calls`` are those of
+    the right-hand side in a step, as they were counted.
     """
 
     function: Any
@@ -59,6 +71,7 @@ class Block:
     batch: int
     record: Record
     parameters: int
+    calls: int
 
     def __call__(self, lanes: np.ndarray, parameters: np.ndarray, out: np.ndarray) -> None:
         """Advance C-contiguous ``lanes`` [rows, lanes], whose number is a multiple of the batch, into ``out``."""
@@ -128,7 +141,7 @@ def compile_block(
     outputs = list(map(_expression, every if record == "every" else [*state, *largest]))
     options = {"fast_math": fast_math, **fmt.compiler_options, **({"opt_level": 0} if brief else {})}
     function = hy.cfunc(outputs, vars=[*y, *maxima], batch_size=batch, **options)
-    block = Block(function, steps, batch, record, parameter_rows(outputs))
+    block = Block(function, steps, batch, record, parameter_rows(outputs), system.calls // steps)
     _trust(block, method, problem, fmt, iterations)
     return block
 
@@ -170,7 +183,16 @@ def plain_block(
     steps: int,
     iterations: int,
 ) -> np.ndarray:
-    """The first steps of a march on NumPy arrays, the method's starting procedure among them: [steps, rows, lanes]."""
+    """The first steps of a march on NumPy arrays, the method's starting procedure among them: [steps, rows, lanes].
+
+    A step of somebody else's is for one state, and may give another answer for many: it is given one after another.
+    """
+    if method.opaque and states.ndim > 1:
+        each: list[np.ndarray] = []
+        with hosted(method.name, lambda: len(each)):
+            lanes = zip(states.T, parameters.T, strict=True)
+            each.extend(plain_block(method, problem, fmt, *lane, steps, iterations) for lane in lanes)
+        return np.stack(each, axis=-1)
     system = plain_system(problem, fmt, parameters)
     found = list(entry_rows(method, problem, fmt, states, parameters))
     y: State = tuple(found[-1][: -carried(problem)])
@@ -191,7 +213,7 @@ def _rows(system: BoundSystem, fmt: Precision, y: State, changes: State) -> np.n
 
 def _trust(block: Block, method: Method, problem: Problem, fmt: Precision, iterations: int) -> None:
     """Hold the compiled block against the plain steps at random points: an ``if`` on a symbol is silently true."""
-    states, parameters = _random_points(problem, fmt, block.batch)
+    states, parameters = random_points(problem, fmt, block.batch)
     plain = plain_block(method, problem, fmt, states, parameters, method.starting_steps + block.steps, iterations)
     entry = entry_rows(method, problem, fmt, states, parameters)[-1]
     out = fmt.zeros((block.out_rows(len(entry)), states.shape[1]))
@@ -207,7 +229,7 @@ def _trust(block: Block, method: Method, problem: Problem, fmt: Precision, itera
         )
 
 
-def _random_points(problem: Problem, fmt: Precision, batch: int) -> tuple[np.ndarray, np.ndarray]:
+def random_points(problem: Problem, fmt: Precision, batch: int) -> tuple[np.ndarray, np.ndarray]:
     """Random states, step sizes and parameters within the problem's intervals for a trial, each its own initial."""
     random = np.random.default_rng(20260101)
     lanes_count = batch * -(-CHECK_LANES // batch)

@@ -16,11 +16,13 @@ import numpy as np
 
 from compare.march.equation import BoundSystem
 from compare.march.lanes import Lane, initial_invariants
+from compare.march.lanewise import obstacle, stepped
 from compare.march.march import converged, iterations_for, march
 from compare.march.trace import slopes_of
 from compare.measure.records import Defect
 from compare.measure.result import exactly
 from compare.methods.kinds.compensated import Compensated
+from compare.methods.own.step_function import StepFunction
 from reference.arithmetic.compiler import hy, parameter_rows
 from reference.arithmetic.namespaces import Heyoka
 
@@ -33,7 +35,16 @@ if TYPE_CHECKING:
     from compare.methods.kinds.one_step import Method
     from reference.problem import Problem
 
-__all__ = ["canonical_places", "defects", "largest_change", "symplectic_changes", "symplectic_form"]
+__all__ = [
+    "CONFINED_SPACING",
+    "SPACING",
+    "STENCIL",
+    "canonical_places",
+    "defects",
+    "largest_change",
+    "symplectic_changes",
+    "symplectic_form",
+]
 
 STATES = 16
 """States of the exact motion at which the area is measured."""
@@ -41,6 +52,11 @@ FURTHER = 4
 """So much of the difference between neighbours bounds what rounding made of one."""
 NEXT = 1 + Fraction(1, 1 << 40)
 """Where the way back of a lost march begins once more, over where it ended."""
+STENCIL = (5 / 6, -5 / 21, 5 / 84, -5 / 504, 1 / 1260)
+"""f'(x) = sum_k c_k (f(x + k d) - f(x - k d))/d, k = 1 ... 5, to order 10 (B. Fornberg, Math. Comp. 51, 1988, 699)."""
+SPACING, CONFINED_SPACING = 1 / 50, 1 / 200
+"""d over the size of the component: then rounding and truncation are both near 1e-14; the second where a singularity
+may be near."""
 
 
 def defects(runs: Sequence[Run]) -> list[Defect]:
@@ -85,11 +101,43 @@ def _form_defects(runs: Sequence[Run]) -> list[FormDefect]:
     problem = course.problem
     if not problem.has_momenta or method.memory(len(problem.state_names), problem.positions):
         return [NO_FORM] * len(runs)
+    if isinstance(method, StepFunction) and method.whole:
+        return [NO_FORM] * len(runs)
     largest = max(float(run.course.h) for run in runs)
-    step = _compiled(method, course, iterations_for(method, problem, largest, course.fmt.bits))
+    if obstacle(method, problem, course.fmt):
+        step, noise = _differenced(method, course), 2 * sum(map(abs, STENCIL)) / _spacing(problem)
+    else:
+        step, noise = _compiled(method, course, iterations_for(method, problem, largest, course.fmt.bits)), 1.0
     form = symplectic_form(problem, course.fmt)
     with np.errstate(all="ignore"):
-        return [NO_FORM if np.isnan(run.march.states).all() else _form_defect(step, form, run) for run in runs]
+        return [NO_FORM if np.isnan(run.march.states).all() else _form_defect(step, form, run, noise) for run in runs]
+
+
+def _spacing(problem: Problem) -> float:
+    return SPACING if problem.positions == 1 else CONFINED_SPACING
+
+
+def _differenced(method: Method, course: Course) -> Callable[[np.ndarray, np.ndarray], np.ndarray]:
+    """What ``_compiled`` gives, of a step that cannot be: its derivatives by the stencil."""
+    places, count = canonical_places(course.problem), len(STENCIL)
+    sizes = _spacing(course.problem) * course.conditioning.sizes
+
+    def step(states: np.ndarray, parameters: np.ndarray) -> np.ndarray:
+        moved = [states]
+        for place in places:
+            for shift in (*range(1, count + 1), *range(-count, 0)[::-1]):
+                moved.append(states.copy())
+                moved[-1][place] += shift * sizes[place]
+        times = np.zeros(len(moved) * states.shape[1])
+        found, _ = stepped(method, course.problem, course.fmt, np.hstack(moved), np.tile(parameters, len(moved)), times)
+        after, *others = np.split(found[places], len(moved), axis=1)
+        columns = []
+        for i, place in enumerate(places):
+            ahead, behind = np.split(np.array(others[2 * count * i : 2 * count * (i + 1)]), 2)
+            columns.append(np.tensordot(STENCIL, ahead - behind, axes=1) / sizes[place])
+        return np.vstack([found[:, : states.shape[1]], np.stack(columns, axis=1).reshape(-1, after.shape[1])])
+
+    return step
 
 
 def symplectic_form(problem: Problem, fmt: Precision) -> Callable[[np.ndarray], np.ndarray]:
@@ -159,10 +207,11 @@ def _function(outputs: list[Any], variables: list[Any], fmt: Precision) -> Calla
     return lambda states, parameters: function(np.ascontiguousarray(states), pars=parameters[:rows])
 
 
-def _form_defect(step: Any, form: Any, run: Run) -> FormDefect:
+def _form_defect(step: Any, form: Any, run: Run, noise: float) -> FormDefect:
     """At states of the exact motion; and rounding's part: one for an evaluation and their sum, of either product.
 
-    A step that is too long carries roundings further: so do starts that are apart by one in all components.
+    Differences make ``noise`` times as much of it.  A step that is too long carries roundings further: so do starts
+    that are apart by one in all components.
     """
     course = run.course
     fmt, problem = course.fmt, course.problem
@@ -171,7 +220,7 @@ def _form_defect(step: Any, form: Any, run: Run) -> FormDefect:
     parameters = _parameters(problem, fmt, [fmt.number(course.h), *initial_invariants(problem, fmt)], STATES)
     near = states * fmt.number(1 + 2 * fmt.exact_epsilon)
     (defects, products), (others, _) = (_changes(step, form, course, parameters, y) for y in (states, near))
-    roundings = fmt.epsilon * (1 + run.march.evaluations / course.n) * products
+    roundings = noise * fmt.epsilon * (1 + run.march.evaluations / course.n) * products
     apart = np.max(np.abs(defects - others), axis=0)
     return FormDefect(float(np.max(np.abs(defects))), float(np.max(np.maximum(roundings, FURTHER * apart))))
 

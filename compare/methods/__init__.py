@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import unicodedata
-from dataclasses import replace
-from functools import cache
+from pathlib import PurePath
 from typing import TYPE_CHECKING
 
 from compare.methods.compositions import COMPOSITIONS
@@ -14,7 +13,7 @@ from compare.methods.explicit import EULER, EXPLICIT, HEUN, MIDPOINT, RK4
 from compare.methods.implicit import IMPLICIT, IMPLICIT_MIDPOINT
 from compare.methods.multistep import MULTISTEP
 from compare.methods.nystrom import NYSTROM
-from compare.methods.step_function import StepFunction
+from compare.methods.own.step_function import method_at
 from compare.methods.symplectic import (
     POSITION_VERLET,
     RUTH3,
@@ -26,13 +25,15 @@ from compare.methods.symplectic import (
     YOSHIDA4,
 )
 from compare.methods.taylor import TAYLOR
-from reference.named import named
 from reference.names import unknown
 
 if TYPE_CHECKING:
-    from compare.methods.kinds.one_step import Method
+    from collections.abc import Sequence
 
-__all__ = ["DEFAULT", "METHODS", "find"]
+    from compare.methods.kinds.one_step import Method
+    from compare.methods.own.step_function import StepFunction
+
+__all__ = ["DEFAULT", "METHODS", "find", "own_methods"]
 
 METHODS: tuple[Method, ...] = (
     *EXPLICIT,
@@ -73,7 +74,7 @@ def find(name: str) -> Method:
         FileNotFoundError, ImportError: the user's module cannot be imported.
     """
     if ":" in name:
-        own: Method = _own(name)
+        own: Method = method_at(name, None, name)
         return own
     plain = _plain(str(name))
     for method in METHODS:
@@ -83,13 +84,34 @@ def find(name: str) -> Method:
     raise ValueError(unknown("method", str(name), names, aliases))
 
 
-@cache
-def _own(name: str) -> StepFunction:
-    """A method in a module of the user's own, the same each time that it is asked for."""
-    found: StepFunction = named(
-        name, "function under @compare.method(order=N)", "STEP", lambda value: isinstance(value, StepFunction)
+def own_methods(homes: Sequence[str], orders: Sequence[int]) -> tuple[StepFunction, ...]:
+    """Methods of a user's own functions, each named as its function is, or FILE.py:NAME where another has that name.
+
+    Args:
+        homes: MODULE:NAME or FILE.py:NAME of each.
+        orders: what each claims, or one for all; none where ``compare.method`` has declared them.
+
+    Raises:
+        ValueError: there are other numbers of orders than of functions, a function is named twice, or is no step.
+        FileNotFoundError, ImportError: a module cannot be imported.
+    """
+    if len(orders) not in {0, 1, len(homes)}:
+        raise ValueError(
+            f"claims has {len(orders)} orders for {len(homes)} methods; one for all, or one for each, is accepted."
+        )
+    each: list[int | None] = [*orders] if orders else [None]
+    each *= len(homes) if len(each) == 1 else 1
+    words = [home.rpartition(":")[2] for home in homes]
+    known = {one for method in METHODS for one in (method.name, f"{method.name}_compensated", *method.aliases)}
+    others = [*map(_plain, known), *map(_plain, words)]
+    found = tuple(
+        method_at(home, order, word if others.count(_plain(word)) == 1 else PurePath(home).name)
+        for home, order, word in zip(homes, each, words, strict=True)
     )
-    return replace(found, name=name, aliases=(found.name,)) if found.name != name else found
+    for one in found:
+        if [other.name for other in found].count(one.name) > 1:
+            raise ValueError(f"method has {one.name} twice; each is accepted once.")
+    return found
 
 
 def _plain(name: str) -> str:

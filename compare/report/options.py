@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 from typing import TYPE_CHECKING, Any
 
+from compare.options import NONE, methods_given, methods_offered
 from compare.show.render import FORMATS
 from reference.command import values
 from reference.command.terminal import one_of
@@ -15,8 +16,6 @@ if TYPE_CHECKING:
 __all__ = ["DEFAULT_FOLDER", "add_options", "options"]
 
 DEFAULT_FOLDER = "horologium-report"
-NONE = ("none",)
-"""What asks for no method, or for no solver."""
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
@@ -29,7 +28,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         **several,
         help="how far from rest they start, or curves of descents by name (default: each family's own)",
     )
-    parser.add_argument("--methods", **several, help="methods by name (default: a dozen), or all, or none; may repeat")
+    methods_offered(parser, "a dozen")
     parser.add_argument("--solvers", **several, help="solvers or packages by name (default all), or none; may repeat")
     parser.add_argument("--n", **several, help="numbers of steps (default 128, 256, ... 131072); may repeat")
     parser.add_argument("--rtol", **several, help="tolerances (default 1e-3, 1e-4, ... 1e-13); may repeat")
@@ -62,14 +61,14 @@ def options(known: argparse.Namespace) -> dict[str, Any]:
         for name, read in (
             ("problems", values.text),
             ("amplitudes", _amplitude),
-            ("methods", values.text),
             ("solvers", values.text),
             ("n", values.whole),
             ("rtol", values.number),
         )
         if getattr(known, name) is not None
     }
-    given |= {name: () for name in ("methods", "solvers") if given.get(name) == NONE}
+    given |= {"solvers": ()} if given.get("solvers") == NONE else {}
+    given |= methods_given(known)
     if known.t_end is not None:
         given["t_end"] = values.number(known.t_end, "t-end")
     if known.max_evaluations is not None:

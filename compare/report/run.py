@@ -15,15 +15,17 @@ from fractions import Fraction
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from compare.march.autonomous import autonomous
 from compare.march.march import fits, march_alone
 from compare.march.precision import precision
 from compare.march.trace import TraceError
 from compare.measure.errors import score_errors
 from compare.measure.truth import SAMPLES, Course
 from compare.methods import find
+from compare.methods.own.step_function import StepFunction, method_at
 from compare.report.problems import reported, reported_by
 from compare.report.records import Report, WorkPoint
-from compare.scored import named, some
+from compare.scored import manner, named, some
 from compare.show.output import folder
 from compare.solvers.catalogue import SOLVERS, select
 from compare.solvers.score import score_solver
@@ -34,6 +36,7 @@ from reference.arithmetic.compiler import hy
 from reference.arithmetic.exact import positive
 from reference.command.executors import opened, results
 from reference.dataset.blocks import partial
+from reference.named import program_at
 from reference.routes.agreement import ROUTES
 
 if TYPE_CHECKING:
@@ -78,6 +81,34 @@ def _digest(text: str) -> str:
 
 
 @dataclass(frozen=True)
+class Own:
+    """A method of the user's own, as a worker finds it.
+
+    Attributes:
+        home: MODULE:NAME or FILE.py:NAME.
+        order: that it claims.
+        text, program: what tells the module that it stands in, and all of the user's, from what they were before they
+            were changed; of the second a worker may have loaded another part.
+    """
+
+    home: str
+    order: int
+    text: str
+    program: str
+
+    def method(self, name: str) -> Method:
+        """The method under the name that tables call it.
+
+        Raises:
+            ValueError: what stands there has been changed since the report was planned.
+        """
+        found = method_at(self.home, self.order, name)
+        if program_at(self.home)[0] != self.text:
+            raise ValueError(f"{self.home} was changed while the report was made; the same command begins anew.")
+        return found
+
+
+@dataclass(frozen=True)
 class Task:
     """What one worker is asked for.
 
@@ -87,6 +118,7 @@ class Task:
         settings: numbers of steps, or tolerances.
         t_end: the last time, s.
         limit: evaluations of the right-hand side that a solver is granted for one answer.
+        own: where a method of the user's own stands; None for any other.
     """
 
     family: str
@@ -96,6 +128,7 @@ class Task:
     settings: tuple[float, ...]
     t_end: float
     limit: int
+    own: Own | None = None
 
     @property
     def key(self) -> str:
@@ -107,6 +140,11 @@ class Task:
         """The problem itself."""
         return reported_by(self.family).problem(self.amplitude)
 
+    @property
+    def method(self) -> Method:
+        """The method itself."""
+        return find(self.name) if self.own is None else self.own.method(self.name)
+
 
 def work(task: Task) -> tuple[WorkPoint, ...]:
     """Do what the task asks for; whatever goes wrong with a method or a solver is part of the answer."""
@@ -114,7 +152,7 @@ def work(task: Task) -> tuple[WorkPoint, ...]:
 
 
 def _marched(task: Task) -> tuple[WorkPoint, ...]:
-    method, fmt, end = find(task.name), precision("float64"), Fraction(task.t_end)
+    method, fmt, end = task.method, precision("float64"), Fraction(task.t_end)
     courses = [Course(task.problem, int(n), end, fmt) for n in task.settings]
     try:
         cells = score_errors(method, courses, fmt)
@@ -219,6 +257,7 @@ def plan(
     kinds = reported(None if problems is None else some(problems, "problems"))
     marched = () if methods == () else named(methods)
     asked = SOLVERS if solvers is None else select(() if solvers == () else some(solvers, "solvers"))
+    own = {method.name: _own(method) for method in marched if isinstance(method, StepFunction)}
     counts = tuple(sorted({positive(count, "n") for count in some(n, "n")}))
     settings = {"method": counts, "solver": tuple(tolerances(rtol))}
     tasks: list[Task] = []
@@ -231,7 +270,8 @@ def plan(
             question = next(questions(problem, end, rtol, max_evaluations))
             for name, kind, suits in _suited(question, marched, asked):
                 if suits:
-                    tasks.append(Task(key, amplitude, name, kind, settings[kind], question.end, max_evaluations))
+                    asked_for = (key, amplitude, name, kind, settings[kind], question.end, max_evaluations)
+                    tasks.append(Task(*asked_for, own.get(name) if kind == "method" else None))
                 else:
                     left_out.setdefault(one.label(amplitude), []).append(name)
     if not tasks:
@@ -245,6 +285,17 @@ def plan(
         "rtol": list(settings["solver"]),
     }
     return Plan(tuple(tasks), {s.package: s.install for s in asked if s.version is None}, left_out, parameters)
+
+
+def _own(method: StepFunction) -> Own:
+    """Where a method of the user's own is found by the workers of a report.
+
+    Raises:
+        ValueError: it is known in this process alone.
+    """
+    if not method.home:
+        raise ValueError(f"{method.name} is known in this process alone; MODULE:NAME or FILE.py:NAME is accepted.")
+    return Own(method.home, method.order, *program_at(method.home))
 
 
 def _ends(cases: Iterable[tuple[Reported, Amplitude, float]], t_end: float) -> dict[str, Any]:
@@ -325,6 +376,7 @@ def _report(wanted: Plan, found: dict[Task, tuple[WorkPoint, ...]], where: str) 
         engine={
             **facts(wanted.tasks[0].limit),
             "methods": f"marched by code compiled by heyoka {hy.__version__}, in float64",
+            **_manners(wanted, found),
             "clock": f"a march by itself, or the call of a solver; {where}",
         },
         points=tuple(point for task in wanted.tasks for point in found[task]),
@@ -332,6 +384,17 @@ def _report(wanted: Plan, found: dict[Task, tuple[WorkPoint, ...]], where: str) 
         left_out=wanted.left_out,
         counts={solver.name: solver.counts for solver in SOLVERS if solver.counts != CALLS},
     )
+
+
+def _manners(wanted: Plan, found: dict[Task, tuple[WorkPoint, ...]]) -> dict[str, dict[str, str]]:
+    """How the methods of the user's own were marched, those that were."""
+    problems: dict[Method, list[Problem]] = {}
+    for task in wanted.tasks:
+        if task.own is not None and not any(point.failure for point in found[task]):
+            problems.setdefault(task.method, []).append(autonomous(task.problem))
+    fmt = precision("float64")
+    marched = {method.name: manner(method, where, fmt) for method, where in problems.items()}
+    return {"own methods": marched} if marched else {}
 
 
 def _results(

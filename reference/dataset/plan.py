@@ -7,12 +7,10 @@ from __future__ import annotations
 
 import hashlib
 import json
-import secrets
 import sys
 from dataclasses import dataclass
 from fractions import Fraction
-from pathlib import Path
-from types import FunctionType, ModuleType
+from types import FunctionType
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -20,6 +18,7 @@ import numpy as np
 from reference.arithmetic.arrays import in_order
 from reference.arithmetic.binary64 import hexadecimal, nearest
 from reference.layout import BLOCK_LENGTH
+from reference.named import program
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -83,24 +82,10 @@ class Plan:
 def _program(problem: Callable[..., Problem]) -> str:
     """What tells the program behind a family of the user's own from what it was, or will be, when it is changed.
 
-    That is a hash of his modules as far as they are loaded: those of the same package, or beside the same file.  Of
-    what stands in no file it is a number that never comes again.  Ours is told by its version.
+    Ours is told by its version.
     """
     made_by = getattr(problem, "program", problem)
     home = sys.modules.get(made_by.__module__) if isinstance(made_by, (FunctionType, type)) else None
     if home is not None and home.__name__.startswith("reference."):
         return ""
-    modules = [one for one in [*sys.modules.values()] if isinstance(one, ModuleType)]
-    files = {one.__name__: Path(vars(one).get("__file__") or "") for one in modules}
-    if home is None or not files[home.__name__].name:
-        return secrets.token_hex()
-    package, folder = home.__name__.partition(".")[0], files[home.__name__].parent
-    own = {
-        path
-        for name, path in files.items()
-        if path.name and (name.partition(".")[0] == package or path.parent == folder)
-    }
-    digest = hashlib.sha256()
-    for path in sorted(own):
-        digest.update(hashlib.sha256(path.read_bytes()).digest())
-    return digest.hexdigest()
+    return program(home)

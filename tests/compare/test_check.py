@@ -11,9 +11,9 @@ import pytest
 import slips
 
 import compare
-from compare.claims.forms import form_of
 from compare.claims.frames import Field, Frame, Scene
 from compare.claims.order import Cell, fitted, ladder
+from compare.methods.own.forms import form_of
 from reference import Pendulum
 
 RIGHT = [

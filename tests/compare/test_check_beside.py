@@ -82,7 +82,7 @@ def test_an_error_goes_with_the_tolerance(solver, power, standing, says):
 def test_orders_are_reduced_on_a_stiff_equation(step, order, standing, says):
     """Hairer and Wanner, Solving Ordinary Differential Equations II, table IV.15.1: both are of order 2 there."""
     from compare.claims.candidate import Candidate
-    from compare.claims.forms import form_of
+    from compare.methods.own.forms import form_of
 
     found = stiff(Candidate(step, form_of(step), "it"), order)
     assert found.standing == standing

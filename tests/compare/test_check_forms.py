@@ -12,7 +12,7 @@ import pytest
 
 import compare
 from compare.__main__ import main
-from compare.claims.forms import loaded
+from compare.methods.own.forms import loaded
 from reference import Pendulum
 from reference.problems.families import find_family
 

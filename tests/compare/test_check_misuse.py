@@ -250,7 +250,7 @@ def test_a_module_that_cannot_be_imported_is_one_sentence(name, tmp_path, capsys
 @pytest.mark.parametrize(
     ("words", "says"),
     [
-        ([], "required: MODULE:STEP"),
+        ([], "a function MODULE:STEP or --process COMMAND is accepted, one of both"),
         (["slips"], "'slips' names no function; MODULE:STEP or FILE.py:STEP is accepted"),
         (["no_such_module_anywhere:step"], "cannot be imported: ModuleNotFoundError"),
         (["nowhere.py:step"], "there is no file 'nowhere.py'"),

@@ -6,19 +6,20 @@ import math
 
 import numpy as np
 import pytest
+import slips
 import sound_and_slipped
 
 from compare.claims.candidate import Candidate
 from compare.claims.coefficients import slip
-from compare.claims.forms import form_of
 from compare.claims.frames import Scene
 from compare.claims.heading import heading
 from compare.methods import find
+from compare.methods.own.forms import form_of
 from reference import Pendulum
 
 
 def said(step, order):
-    return slip(Candidate(step, form_of(step), "it"), order)
+    return slip(Candidate(step, form_of(step), "it"), Scene(Pendulum(1)), order)
 
 
 def changed(method, array, place, value):
@@ -78,8 +79,9 @@ def test_what_goes_with_the_square_of_h_and_what_breaks_a_condition_is_named():
     assert said(of_order_one, 2) == "a condition of order 2 has 0.6 in the place of 1/2"
 
 
-def test_nothing_is_said_of_a_step_that_takes_two_numbers_apart():
+def test_nothing_is_said_of_a_step_that_treats_components_in_different_ways():
     assert said(unpacked, 2) is None
+    assert said(slips.forest_ruth_of_order_two, 4) is None
 
 
 def rk4(f, y, h):

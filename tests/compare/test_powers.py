@@ -9,9 +9,9 @@ import slips
 
 from compare.claims.candidate import Candidate
 from compare.claims.expansion import Expansion, Expansions, NoSeriesError
-from compare.claims.forms import form_of
 from compare.claims.frames import Frame, Scene
 from compare.claims.powers import Powers, lower, powers
+from compare.methods.own.forms import form_of
 from reference import Pendulum
 from reference.arithmetic.precision import mp
 

@@ -35,6 +35,8 @@ class Sum:
         total = self.value + wanted
         return Sum(total, wanted - (total - self.value))
 
+    __radd__ = __add__
+
     def __sub__(self, other: Sum) -> Any:
         """How far two sums are apart: a plain number."""
         return (self.value - other.value) + (self.lost - other.lost)
@@ -52,7 +54,11 @@ class _ValueSystem:
     def __init__(self, system: System) -> None:
         self._system = system
         self.number, self.tiny = system.number, system.tiny
-        self.dimension, self.positions = system.dimension, system.positions
+        self.dimension, self.positions, self.clock = system.dimension, system.positions, system.clock
+
+    @property
+    def time(self) -> Any:
+        return self._system.time
 
     @property
     def initial_invariant(self) -> Any:

@@ -37,8 +37,14 @@ class System(Equation, Protocol):
     """How many components the problem's state has."""
     positions: int
     """How many of the components are positions, 0 where the equation is not separable."""
+    clock: int | None
+    """Where the time stands in the state of an equation that depends on it; None where it does not."""
     tiny: Any
     """A number that is nothing beside any other but zero."""
+
+    @property
+    def time(self) -> Any:
+        """The time at which a step begins, where it does not stand in the state."""
 
     @property
     def initial_invariant(self) -> Any:
@@ -85,6 +91,13 @@ class Method(Protocol):
     def second_order_only(self) -> bool: ...
 
     @property
+    def opaque(self) -> bool:
+        """Whether a step is a function of somebody else's, of which nothing is known but what it gives.
+
+        Its evaluations are counted, and where it cannot be traced it is marched state by state.
+        """
+
+    @property
     def starting_steps(self) -> int:
         """How many steps ``start`` takes: those that a method with a memory cannot take itself."""
 
@@ -111,6 +124,7 @@ class OneStep:
     """What the explicit methods without a memory have in common."""
 
     starting_steps: ClassVar[int] = 0
+    opaque: ClassVar[bool] = False
 
     def memory(self, dimension: int, positions: int) -> int:  # noqa: ARG002
         return 0

@@ -11,8 +11,6 @@ import numpy as np
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from compare.claims.frames import Field
-
 __all__ = ["is_jitted", "jitted"]
 
 
@@ -26,7 +24,7 @@ def is_jitted(function: Any) -> bool:
     return False
 
 
-def jitted(field: Field) -> Any:
+def jitted(field: Callable[..., Any]) -> Any:
     """f(y) or f(t, y) as a compiled function; there is one, so that a step is compiled once, of the latest field."""
     relay, current = _relay()
     current.clear()
@@ -35,10 +33,10 @@ def jitted(field: Field) -> Any:
 
 
 @cache
-def _relay() -> tuple[Callable[..., Any], list[Field]]:
+def _relay() -> tuple[Callable[..., Any], list[Callable[..., Any]]]:
     import numba
 
-    current: list[Field] = []
+    current: list[Callable[..., Any]] = []
 
     def rates(t: Any, y: Any) -> np.ndarray:
         return np.ascontiguousarray(current[0](y) if t is None else current[0](t, y), dtype=np.float64)

@@ -7,7 +7,7 @@ import inspect
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from compare.claims.library import SUFFIXES, of_library
+from compare.methods.own.library import SUFFIXES, of_library
 from reference.named import named
 from reference.names import unknown
 
@@ -184,7 +184,7 @@ def _order(form: Form, arguments: list[str]) -> tuple[str, ...] | None:
 def loaded(name: str) -> Callable[..., Any]:
     """The function that ``name`` says: a module that can be imported from here or a file, and what is in it.
 
-    A library's is a step by the convention of ``compare.claims.library``.
+    A library's is a step by the convention of ``compare.methods.own.library``.
 
     Raises:
         ValueError: the name is not of this form, or there is no such function.

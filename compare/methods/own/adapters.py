@@ -14,14 +14,13 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from compare.claims.candidate import axes
-from compare.claims.forms import Form, form_of, role_of
-from compare.claims.frames import MisuseError
+from compare.methods.own.forms import Form, form_of, role_of
+from compare.methods.own.hosting import MisuseError
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping, Sequence
 
-__all__ = ["adapted", "with_arguments"]
+__all__ = ["adapted", "hold_times", "solution_of", "with_arguments"]
 
 LEFT = ("h", "count", "grid", "end", "t")
 """Roles of arguments that have a default and are given nevertheless."""
@@ -32,8 +31,8 @@ SOLVED = ("f", "span", "y", "grid", "h", "count")
 STEP = ("step", "advance", "do_step")
 """What the method is called that takes a step."""
 STATE = ("y", "state", "u", "x")
-SAME = 1e-9
-"""Times that differ by so much of a step are the same."""
+SAME, SAME_TIME = 1e-9, 1e-6
+"""Times that differ by so much of a step are the same, and the second where they are told."""
 
 
 def adapted(function: Callable[..., Any], form: str | None = None) -> tuple[Callable[..., Any], Form]:
@@ -222,3 +221,40 @@ def _last(solved: Any, dimension: int) -> np.ndarray:
     if states.ndim == 2:
         states = states[:, -1] if states.shape[0] == dimension else states[-1]
     return states
+
+
+STATES = "y ys u us x xs states state"
+TIMES = "t ts times time"
+"""What solutions call them."""
+
+
+def axes(value: Any) -> int:
+    """How many axes a value has; none is None's."""
+    return -1 if value is None else int(np.ndim(value))
+
+
+def solution_of(found: Any) -> tuple[Any, Any]:
+    """The states of what a whole integrator returned, and its times, None where it gives none."""
+    if isinstance(found, (tuple, list)) and len(found) == 2 and axes(found[0]) == 1 and axes(found[1]) == 2:
+        return found[1], found[0]
+    states = _attribute(found, STATES, 2)
+    return (found, None) if states is None else (states, _attribute(found, TIMES, 1))
+
+
+def _attribute(found: Any, names: str, count: int) -> Any:
+    """The first attribute of these names that has so many axes, or None."""
+    values = (getattr(found, name, None) for name in names.split())
+    return next((value for value in values if axes(value) == count), None)
+
+
+def hold_times(found: np.ndarray, grid: np.ndarray, name: str) -> None:
+    """Hold the times of a solution against those that were asked for.
+
+    Raises:
+        MisuseError: they are others.
+    """
+    if found.shape != grid.shape or np.max(np.abs(found - grid)) > SAME_TIME * np.max(np.abs(np.diff(grid))):
+        raise MisuseError(
+            f"{name} gave the states at {found.size} times of its own, where {len(grid)} from {grid[0]:.4g} to "
+            f"{grid[-1]:.4g} were asked for; the states at those are accepted."
+        )
