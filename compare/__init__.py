@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from compare.claims.asserting import assert_conserves, assert_order, assert_reversible, assert_symplectic
     from compare.claims.checking import check
+    from compare.files.asserting import assert_score
     from compare.files.score import score
     from compare.methods.step_function import method
     from compare.scored import energy_drift, error_vs_n
@@ -16,6 +17,7 @@ __all__ = [
     "assert_conserves",
     "assert_order",
     "assert_reversible",
+    "assert_score",
     "assert_symplectic",
     "check",
     "energy_drift",
@@ -28,6 +30,7 @@ _HOMES = {
     "assert_conserves": "compare.claims.asserting",
     "assert_order": "compare.claims.asserting",
     "assert_reversible": "compare.claims.asserting",
+    "assert_score": "compare.files.asserting",
     "assert_symplectic": "compare.claims.asserting",
     "check": "compare.claims.checking",
     "energy_drift": "compare.scored",

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import math
 from typing import TYPE_CHECKING, Any
 
+from compare.baseline import add_baseline
 from compare.options import inputs_given, inputs_offered
 from reference.command.terminal import one_of
-from reference.names import short
+from reference.command.values import positive
 from reference.problems.families import find_family
 
 if TYPE_CHECKING:
@@ -45,13 +45,14 @@ def add_options(parser: argparse.ArgumentParser, families: Sequence[Family]) -> 
     parser.add_argument("--exact", action="store_true", help="take numbers as written, not as doubles")
     parser.add_argument("--seconds", metavar="S", help="give up after so long (default 60)")
     parser.add_argument("--format", type=one_of("format", FORMATS), default="text", help=", ".join(FORMATS))
+    add_baseline(parser)
 
 
 def options(known: argparse.Namespace, families: Sequence[Family]) -> dict[str, Any]:
     """What was given, as the arguments of ``compare.check``, the function still by name."""
     given: dict[str, Any] = {
         "step": known.step,
-        "order": None if known.order is None else _positive("order", known.order),
+        "order": None if known.order is None else positive(known.order, "order"),
         "backward": known.backward or None,
         "symplectic": known.symplectic or None,
         "reversible": known.reversible or None,
@@ -65,7 +66,7 @@ def options(known: argparse.Namespace, families: Sequence[Family]) -> dict[str, 
             raise ValueError(f"--{family.comparison.varied} has {len(several)} values; a check is on one.")
         given["problem"] = {"family": known.problem, "inputs": {name: _plain(value) for name, value in inputs.items()}}
     if known.seconds is not None:
-        given["seconds"] = _positive("seconds", known.seconds)
+        given["seconds"] = positive(known.seconds, "seconds")
     return given
 
 
@@ -74,13 +75,3 @@ def _plain(value: Any) -> Any:
     if isinstance(value, tuple):
         return [_plain(part) for part in value]
     return value if isinstance(value, (str, float, int)) else str(value)
-
-
-def _positive(name: str, text: str) -> float:
-    try:
-        value = float(text)
-    except ValueError:
-        value = math.nan
-    if not 0 < value < math.inf:
-        raise ValueError(f"--{name} is '{short(text)}'; a positive number is accepted.")
-    return value
