@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from compare.claims.events import assert_events, check_events
     from compare.claims.gradients import assert_gradients, check_gradients
     from compare.claims.process import Process
+    from compare.files.asserting import assert_score
     from compare.files.score import score
     from compare.methods.own.step_function import method
     from compare.scored import energy_drift, error_vs_n
@@ -33,6 +34,7 @@ __all__ = [
     "assert_gradients",
     "assert_order",
     "assert_reversible",
+    "assert_score",
     "assert_stiff_order",
     "assert_symplectic",
     "assert_tolerance",
@@ -55,6 +57,7 @@ _HOMES = {
     "assert_order": "compare.claims.asserting",
     "assert_reversible": "compare.claims.asserting",
     "assert_stiff_order": "compare.claims.asserting",
+    "assert_score": "compare.files.asserting",
     "assert_symplectic": "compare.claims.asserting",
     "assert_tolerance": "compare.claims.asserting",
     "check": "compare.claims.checking",

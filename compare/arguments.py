@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
+from compare.baseline import asked_margin
 from compare.claims import options as claims
 from compare.files import options as files
 from compare.options import FamilyOptions, families_of
@@ -67,6 +68,8 @@ class Request:
         out: a folder for the results, or None.
         plots: whether figures are drawn.
         quiet: whether stderr stays silent but for errors.
+        baseline: the file of an earlier answer that this one is held against, or None.
+        margin: the factor by which errors may grow, or None for the command's own.
     """
 
     command: str
@@ -76,6 +79,8 @@ class Request:
     out: str | None
     plots: bool
     quiet: bool
+    baseline: str | None
+    margin: float | None
 
 
 def parse(words: Sequence[str]) -> Request:
@@ -103,6 +108,8 @@ def parse(words: Sequence[str]) -> Request:
         out=getattr(known, "out", None),
         plots=getattr(known, "plots", False),
         quiet=getattr(known, "quiet", False),
+        baseline=getattr(known, "baseline", None),
+        margin=asked_margin(known),
     )
 
 

@@ -42,10 +42,11 @@ class ContainedError(ValueError):
 
 
 class Answer(NamedTuple):
-    """What a check says, and the exit code: 0, 1 where a claim fails, or 3 where one is not established."""
+    """What a check says, the exit code: 0, 1 where a claim fails, or 3 where one is not established; and its JSON."""
 
     text: str
     code: int
+    document: Any
 
 
 def contained(options: dict[str, Any], form: str) -> Answer:
@@ -53,7 +54,7 @@ def contained(options: dict[str, Any], form: str) -> Answer:
 
     Args:
         options: as of ``compare.claims.options.options``.
-        form: "text" or "json".
+        form: one of ``compare.claims.options.FORMATS``.
 
     Raises:
         ContainedError: the check cannot be made, takes too long, or the step ended the process.
@@ -74,7 +75,7 @@ def contained(options: dict[str, Any], form: str) -> Answer:
                 raise ContainedError(f"{found['left']}; a step that returns is accepted{_no_verdict(options)}.")
             if "refused" in found:
                 raise ContainedError(found["refused"])
-        return Answer(found["text"], found["code"])
+        return Answer(found["text"], found["code"], found["document"])
 
 
 def _how_it_ended(pid: int, name: str, late: str) -> str:

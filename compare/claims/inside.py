@@ -78,7 +78,7 @@ def _identity(handle: int) -> tuple[int, int] | None:
 
 
 def _answer(line: _Line, request: dict[str, Any]) -> dict[str, Any]:
-    """The check as text with its exit code, or why it is refused."""
+    """The check as text with its exit code, and as JSON has it; or why it is refused."""
     from compare.methods.own.forms import loaded
     from reference.command.terminal import sentence
 
@@ -89,6 +89,7 @@ def _answer(line: _Line, request: dict[str, Any]) -> dict[str, Any]:
         step = _step(options, loaded)
         line.say({"stage": "loaded"})
 
+        from compare.baseline import document_of
         from compare.claims import exchange, show
         from compare.claims.tried import tried
         from compare.show import render
@@ -103,11 +104,12 @@ def _answer(line: _Line, request: dict[str, Any]) -> dict[str, Any]:
         if isinstance(error, Exception):
             raise  # a fault of the judge's own, of which the traceback says most
         return {"left": f"{name} raised {type(error).__name__}"}
+    page = show.page(found)
     if request["form"] in exchange.WRITERS:
         text = exchange.WRITERS[request["form"]](found, exchange.place_of(step))
     else:
-        text = render.render(show.page(found), request["form"])
-    return {"text": text, "code": EXIT_CODES[found.claims_hold]}
+        text = render.render(page, request["form"])
+    return {"text": text, "code": EXIT_CODES[found.claims_hold], "document": document_of(page)}
 
 
 def _step(options: dict[str, Any], loaded: Any) -> Any:

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import math
 from typing import TYPE_CHECKING, Any
 
+from compare.baseline import add_baseline
 from compare.options import inputs_given, inputs_offered
 from reference.command.terminal import one_of
-from reference.names import short
+from reference.command.values import positive
 from reference.problems.families import find_family
 
 if TYPE_CHECKING:
@@ -58,6 +58,7 @@ def add_options(parser: argparse.ArgumentParser, families: Sequence[Family]) -> 
     parser.add_argument("--exact", action="store_true", help="take numbers as written, not as doubles")
     parser.add_argument("--seconds", metavar="S", help="give up after so long (default 60)")
     parser.add_argument("--format", type=one_of("format", FORMATS), default="text", help=", ".join(FORMATS))
+    add_baseline(parser)
 
 
 def options(known: argparse.Namespace, families: Sequence[Family]) -> dict[str, Any]:
@@ -73,7 +74,7 @@ def options(known: argparse.Namespace, families: Sequence[Family]) -> dict[str, 
         "conserves": known.conserves or None,
         "interpolant": known.interpolant,
         "form": known.form,
-        **{name: None if text is None else _positive(name, text) for name, text in numbers.items()},
+        **{name: None if text is None else positive(text, name) for name, text in numbers.items()},
     }
     if known.process is not None:
         given["process"] = known.process
@@ -85,7 +86,7 @@ def options(known: argparse.Namespace, families: Sequence[Family]) -> dict[str, 
             raise ValueError(f"--{family.comparison.varied} has {len(several)} values; a check is on one.")
         given["problem"] = {"family": known.problem, "inputs": {name: _plain(value) for name, value in inputs.items()}}
     if known.seconds is not None:
-        given["seconds"] = _positive("seconds", known.seconds)
+        given["seconds"] = positive(known.seconds, "seconds")
     return given
 
 
@@ -106,13 +107,3 @@ def _plain(value: Any) -> Any:
     if isinstance(value, tuple):
         return [_plain(part) for part in value]
     return value if isinstance(value, (str, float, int)) else str(value)
-
-
-def _positive(name: str, text: str) -> float:
-    try:
-        value = float(text)
-    except ValueError:
-        value = math.nan
-    if not 0 < value < math.inf:
-        raise ValueError(f"--{name} is '{short(text)}'; a positive number is accepted.")
-    return value

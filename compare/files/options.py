@@ -5,10 +5,13 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING, Any
 
+from compare.baseline import add_baseline
 from compare.files.columns import asked_columns
+from compare.files.limits import ERROR_FACTOR, Limits
 from compare.files.lines import Passed
 from compare.show.render import FORMATS
 from reference.command.terminal import one_of
+from reference.command.values import positive
 from reference.names import short
 from reference.problems.families import USUAL
 
@@ -21,7 +24,10 @@ if TYPE_CHECKING:
 __all__ = ["add_options", "options"]
 
 SHOWN_ROWS = 24
-SETTINGS = ("file", "problem", "columns", "skip", "comment", "rows", "exact", "format", "quiet", "command")
+SETTINGS = (
+    *("file", "problem", "columns", "skip", "comment", "rows", "exact", "min_digits", "max_error"),
+    *("baseline", "margin", "format", "quiet", "command"),
+)
 
 
 def add_options(parser: argparse.ArgumentParser, families: Sequence[Family]) -> None:
@@ -33,6 +39,9 @@ def add_options(parser: argparse.ArgumentParser, families: Sequence[Family]) -> 
     parser.add_argument("--comment", metavar="C", help="what begins a comment, besides #, %% and !")
     parser.add_argument("--rows", metavar="N", help=f"rows shown at most (default {SHOWN_ROWS}; CSV shows all)")
     parser.add_argument("--exact", action="store_true", help="take parameters and times as written, not as doubles")
+    parser.add_argument("--min-digits", metavar="D", help="exit code 1 where a row has fewer correct digits on scale")
+    parser.add_argument("--max-error", metavar="E", help="exit code 1 where a row has a larger error")
+    add_baseline(parser, f"{ERROR_FACTOR:g}")
     parser.add_argument("--format", type=one_of("format", FORMATS), default="text", help=", ".join(FORMATS))
     parser.add_argument("--quiet", action="store_true", help="nothing on stderr but errors")
     texts: dict[str, str] = {}
@@ -61,6 +70,10 @@ def options(known: argparse.Namespace, families: Sequence[Family]) -> dict[str, 
         ),
         "rows": SHOWN_ROWS if known.rows is None else _count(known.rows, "--rows"),
         "form": known.format,
+        "limits": Limits(
+            None if known.min_digits is None else positive(known.min_digits, "min-digits"),
+            None if known.max_error is None else positive(known.max_error, "max-error"),
+        ),
     }
 
 

@@ -23,10 +23,9 @@ from compare.files.hdf5 import hdf5_columns
 from compare.files.judge import CHUNK, Judge
 from compare.files.lines import NOTHING
 from compare.files.npz import npz_columns
-from compare.files.show import csv_header, csv_rows, page
+from compare.files.show import csv_header, csv_rows
 from compare.files.text import STANDARD_INPUT, TextRows
 from compare.files.written import of_value
-from compare.show.render import render
 from reference.arithmetic.exact import NO_SEQUENCES
 from reference.command import at
 from reference.named import is_own
@@ -37,6 +36,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping, Sequence
 
     from compare.files.chunk import Chunk
+    from compare.files.limits import Limits
     from compare.files.lines import Passed
     from compare.files.record import Score
     from compare.files.scales import Point
@@ -175,6 +175,7 @@ class Submission:
         passed: which lines of a text are no part of its table.
         rows: how many rows are shown at most.
         form: text, markdown, latex, json or csv; the last shows every row.
+        limits: what is asked of the score.
     """
 
     file: str
@@ -185,6 +186,7 @@ class Submission:
     passed: Passed
     rows: int
     form: str
+    limits: Limits
 
 
 def families() -> tuple[Family, ...]:
@@ -194,8 +196,8 @@ def families() -> tuple[Family, ...]:
     )
 
 
-def judged(asked: Submission, progress: Callable[[str], None] | None = None) -> Iterator[str]:
-    """Judge a file and give the answer piece by piece; ``progress`` is told how many rows are done.
+def judged(asked: Submission, write: Callable[[str], None], progress: Callable[[str], None] | None = None) -> Score:
+    """Judge a file; CSV is written row by row as it is found, and ``progress`` is told how many rows are done.
 
     Raises:
         OSError: the file is missing or cannot be read.
@@ -212,14 +214,12 @@ def judged(asked: Submission, progress: Callable[[str], None] | None = None) -> 
         for points, held, count in _found(rows, judge, crew, crew.points if asked.form == "csv" else sift.points):
             running.add(points)
             if asked.form == "csv":
-                yield ("" if done else csv_header(problem.state_names)) + csv_rows(
-                    running.resolved(p, held) for p in points
-                )
+                write("" if done else csv_header(problem.state_names))
+                write(csv_rows(running.resolved(p, held) for p in points))
             done += count
             if progress is not None:
                 progress(f"{done} rows")
-    if asked.form != "csv":
-        yield render(page(judge.score(running, rows.times, rows.notes)), asked.form)
+    return judge.score(running, rows.times, rows.notes)
 
 
 def _found(

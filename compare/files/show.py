@@ -6,6 +6,7 @@ import math
 import re
 from typing import TYPE_CHECKING, Any
 
+from compare.files.limits import NONE
 from compare.show.page import Lines, Page, Sentence, fields_of, in_lines
 from compare.show.render import csv_text
 from compare.show.text_table import Column, Grid, Table
@@ -13,6 +14,7 @@ from compare.show.text_table import Column, Grid, Table
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
+    from compare.files.limits import Limits
     from compare.files.record import Score
     from compare.files.scales import Point
 
@@ -40,9 +42,12 @@ def marked(text: str, place: int | None) -> str:
     return f"{mantissa[:at]}[{mantissa[at]}]{mantissa[at + 1 :]}{exponent}"
 
 
-def page(score: Score) -> Page:
-    """The rows that were kept, and the summary."""
-    return Page("score", lambda _form, _width: (_table(score), Sentence(summary_line(score))), lambda: _data(score))
+def page(score: Score, limits: Limits = NONE) -> Page:
+    """The rows that were kept, the summary, and whether limits hold, if there are any."""
+    asked = limits != NONE
+    told = [summary_line(score), *([limits.sentence(score)] if asked else [])]
+    held = {"limits": vars(limits), "holds": limits.holds(score)} if asked else {}
+    return Page("score", lambda _form, _width: (_table(score), *map(Sentence, told)), lambda: _data(score, held))
 
 
 def _table(score: Score) -> Table:
@@ -105,12 +110,12 @@ def summary_line(score: Score) -> str:
     return ", ".join(parts)
 
 
-def _data(score: Score) -> Lines:
+def _data(score: Score, held: dict[str, Any]) -> Lines:
     """The fields of the score; "rows" is their number, "points" are those that were kept."""
     fields = fields_of(score, "names", "points")
     of_each = {name: dict(zip(score.names, fields[name], strict=True)) for name in ("units", "scales", "max_errors")}
     points = Lines([_point(point, score.names) for point in score.points])
-    return Lines({**in_lines(fields | of_each).entries, "points": points})
+    return Lines({**in_lines(fields | of_each | held).entries, "points": points})
 
 
 def _point(point: Point, names: tuple[str, ...]) -> dict[str, Any]:

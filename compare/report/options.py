@@ -5,8 +5,11 @@ from __future__ import annotations
 import os
 from typing import TYPE_CHECKING, Any
 
+from compare.baseline import add_baseline
 from compare.options import NONE, methods_given, methods_offered
+from compare.report.regression import ERROR_FACTOR
 from compare.show.render import FORMATS
+from compare.solvers.regression import ERROR_FACTOR as FACTOR_OF_SOLVERS
 from reference.command import values
 from reference.command.terminal import one_of
 
@@ -38,6 +41,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--max-evaluations", metavar="N", help="granted to a solver for one answer (default 200000)")
     parser.add_argument("--jobs", metavar="N", help="how many at a time (default: all processors)")
     parser.add_argument("--executor", default="process", metavar="NAME", help="process, dask:ADDRESS or mpi")
+    add_baseline(parser, f"{ERROR_FACTOR:g}, of solvers {FACTOR_OF_SOLVERS:g}")
     parser.add_argument(
         "--format",
         type=one_of("format", FORMATS),

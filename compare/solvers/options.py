@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from compare.baseline import add_baseline
 from compare.options import inputs_given, inputs_offered
 from compare.show.render import FORMATS
+from compare.solvers.regression import ERROR_FACTOR
 from reference.command import values
 from reference.command.terminal import one_of
 from reference.problems.families import USUAL, find_family
@@ -38,6 +40,7 @@ def add_options(parser: argparse.ArgumentParser, families: Sequence[Family]) -> 
     parser.add_argument("--solvers", **several, help="solvers or packages by name (default all); may repeat")
     parser.add_argument("--max-evaluations", metavar="N", help="granted for one answer (default 150000)")
     parser.add_argument("--exact", action="store_true", help="take numbers as written: decimals, or fractions")
+    add_baseline(parser, f"{ERROR_FACTOR:g}")
     parser.add_argument(
         "--format",
         type=one_of("format", FORMATS),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING, Any
 
 from reference.names import short
@@ -10,7 +11,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
     from fractions import Fraction
 
-__all__ = ["as_written", "number", "pair", "several", "text", "whole"]
+__all__ = ["as_written", "number", "pair", "positive", "several", "text", "whole"]
 
 
 def several(name: str, words: Sequence[str], read: Callable[[str, str], Any]) -> tuple[Any, ...]:
@@ -44,6 +45,21 @@ def number(piece: str, name: str) -> float:
         return float(piece)
     except ValueError as error:
         raise ValueError(f"--{name} '{short(piece)}' is not a number; one such as 1 or 2.5e-3 is accepted.") from error
+
+
+def positive(piece: str, name: str) -> float:
+    """The piece as binary64 above zero.
+
+    Raises:
+        ValueError: it is none, or not finite.
+    """
+    try:
+        value = float(piece)
+    except ValueError:
+        value = math.nan
+    if not 0 < value < math.inf:
+        raise ValueError(f"--{name} is '{short(piece)}'; a positive number is accepted.")
+    return value
 
 
 def as_written(piece: str, name: str) -> Fraction:
