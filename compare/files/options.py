@@ -20,6 +20,7 @@ if TYPE_CHECKING:
 
 __all__ = ["add_options", "options"]
 
+FORMS = (*FORMATS, "html")
 SHOWN_ROWS = 24
 SETTINGS = ("file", "problem", "columns", "skip", "comment", "rows", "exact", "format", "quiet", "command")
 
@@ -33,7 +34,7 @@ def add_options(parser: argparse.ArgumentParser, families: Sequence[Family]) -> 
     parser.add_argument("--comment", metavar="C", help="what begins a comment, besides #, %% and !")
     parser.add_argument("--rows", metavar="N", help=f"rows shown at most (default {SHOWN_ROWS}; CSV shows all)")
     parser.add_argument("--exact", action="store_true", help="take parameters and times as written, not as doubles")
-    parser.add_argument("--format", type=one_of("format", FORMATS), default="text", help=", ".join(FORMATS))
+    parser.add_argument("--format", type=one_of("format", FORMS), default="text", help=", ".join(FORMS))
     parser.add_argument("--quiet", action="store_true", help="nothing on stderr but errors")
     texts: dict[str, str] = {}
     for family in families:

@@ -143,7 +143,7 @@ def test_the_worst_rows_of_a_long_file_are_the_worst_of_all_its_rows(problem, be
 
 def point(*truths: float) -> Point:
     zeros = (0.0,) * len(truths)
-    return Point(1, "0", ("0",) * len(truths), 0, 0, zeros, (1,), 0, 0, 0, 0, zeros, zeros, truths)
+    return Point(1, "0", ("0",) * len(truths), 0, 0, zeros, (1,), 0, 0, 0, 0, Fraction(0), 0, zeros, zeros, truths)
 
 
 @pytest.mark.parametrize("size", [1.0, 0.999999, 3.06843, 9.999999, 1e-12, 1.00000499, 5e-320, 1.7e308])
