@@ -31,7 +31,7 @@ __all__ = ["Resolution", "conditioned", "resolution"]
 
 BINARY64 = 2.0**-53
 HIGHEST = 300
-"""A place above this power of ten says no more than that power."""
+"""A place above this power of ten says no more than that power; of more digits than these no double is the roundoff."""
 
 
 class Resolution(NamedTuple):
@@ -77,7 +77,7 @@ def resolution(held: float, last: float) -> Resolution:
     place = 10.0 ** min(last, HIGHEST) / 2
     if held != math.floor(held):
         return Resolution(10.0**-held, 10.0**-held, place)
-    rounding = 10.0 ** (1 - held) / 2
+    rounding = 10.0 ** (1 - held) / 2 if held <= HIGHEST else math.nan
     if held <= ROUND_TRIP_DIGITS:
         return Resolution(max(BINARY64, rounding), BINARY64, place)
     return Resolution(rounding, rounding, place)

@@ -20,6 +20,8 @@ __all__ = ["ERRORS", "GOOD", "csv_header", "csv_rows", "marked", "named_ulps", "
 
 ERRORS = ("phase_error", "amplitude_error", "energy_error")
 GOOD = "No error is larger than what the format must lose: the numbers are as good as it can hold them."
+LARGE = 100
+"""A number of ulps that is shown with an exponent."""
 EXPONENT = re.compile(r"([^eEdDqQ]*)(.*)", re.DOTALL)
 """A mantissa, and what is behind it."""
 NOTE = "[ ] holds the first wrong digit of a number; where there is none, every digit is right."
@@ -113,7 +115,7 @@ def _size(error: float) -> str:
 
 def named_ulps(error: float) -> str:
     """An error over what the format must lose, as it is shown."""
-    return f"{error:.2g}"
+    return f"{error:.1e}" if error >= LARGE else f"{error:.2g}"
 
 
 def summary_line(score: Score) -> str:

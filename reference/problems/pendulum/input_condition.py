@@ -57,7 +57,8 @@ class NodesCondition:
         last = len(times) - 2
         whole = self._about(np.array([last]), motion.period - last * motion.piece)[0] @ self._nodes[last]
         along = np.array([self._start[1] / motion.w, -math.sin(self._start[0])])
-        self._later = along @ (whole - np.eye(2)) / (along @ along)
+        size = along @ along  # zero of a start that is none in doubles
+        self._later = along @ (whole - np.eye(2)) / size if size else np.full(2, np.nan)
 
     def _about(self, node: np.ndarray, away: np.ndarray | float) -> np.ndarray:
         """Y from some nodes to times ``away`` from them, [nodes, 2, 2]."""
