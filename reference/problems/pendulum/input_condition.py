@@ -31,8 +31,8 @@ if TYPE_CHECKING:
 
 __all__ = ["LinearCondition", "pendulum_condition"]
 
-DEGREE = 9
-"""Of the power series of Y; a node's surroundings are a 64th wide, so that what is left out is below 2^-64."""
+DEGREE = 6
+"""Powers of w t in the series of Y: a node is a 32nd away at most, so that what is left out is below 2^-39."""
 BITS = 64
 """Of proven derivatives."""
 
