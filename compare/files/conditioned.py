@@ -47,13 +47,13 @@ class Resolution(NamedTuple):
     place: float
 
     def losses(self, sizes: np.ndarray, led: np.ndarray) -> np.ndarray:
-        """The losses of numbers of these sizes, which changes of the inputs lead so far."""
-        found: np.ndarray = np.maximum(self.numbers * sizes, self.place) + self.inputs * led
-        return found
+        """The losses of numbers of these sizes, which changes of the inputs lead so far; 0 of a zero led nowhere."""
+        rounded, moved = self.numbers * sizes, self.inputs * led
+        return np.where(rounded + moved == 0, 0.0, np.maximum(rounded, self.place) + moved)
 
     def of_zero(self, error: float, scale: float) -> float:
-        """The error of a number that is exactly zero over the roundoff on its scale."""
-        return error / (self.numbers * scale)
+        """The error of a number that is exactly zero over the roundoff on its scale, or half a unit of its place."""
+        return error / max(self.numbers * scale, self.place)
 
 
 def conditioned(errors: Iterable[float], losses: Iterable[float]) -> float:

@@ -71,6 +71,12 @@ def test_a_number_that_is_exactly_zero_has_a_roundoff_on_its_scale():
     assert compare.score(P, [0, 1], [[1.0, 0.0], P.state(1).tolist()]).max_conditioned_error < 1
 
 
+@pytest.mark.parametrize("zero", ["0.100000000000000e-104", "1e-300", "0.0", "-0"])
+def test_a_tiny_number_in_the_place_of_a_zero_is_as_good_however_it_is_written(zero):
+    rows = [["1.0", zero], *([repr(number) for number in row] for row in Y[1:9].tolist())]
+    assert compare.score(P, T[:9], rows).max_conditioned_error <= 1
+
+
 @pytest.mark.parametrize("problem", [Pendulum(0, g=1, length=1, omega0=2), Pendulum(2, omega0=7), LinearPendulum(1.0)])
 def test_other_motions_have_it_too(problem):
     t = np.arange(1, 40) / 8
