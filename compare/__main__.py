@@ -186,16 +186,18 @@ def _errata(request: Request) -> int:
 
 def _score(request: Request) -> int:
     """Judge a file, print what is found, as CSV while it is found; where limits do not hold that is a failure."""
-    from compare.files import regression, show
+    from compare.files import html_page, regression, show
     from compare.files.limits import NONE
-    from compare.files.score import Submission, judged
+    from compare.files.score import Submission, judged, problem_of
     from compare.show.render import render
 
     gated, asked = _Gated(request, regression.GATE), Submission(**request.options)
     with _progress(request.quiet) as progress:
         score = judged(asked, _print, progress)
     page = gated.judged(show.page(score, asked.limits))
-    if request.form != "csv":
+    if request.form == "html":
+        _print(html_page.page(score, html_page.exact_states(problem_of(asked), score), asked.file, asked.limits))
+    elif request.form != "csv":
         _print(render(page, request.form))
     if asked.limits == NONE or asked.limits.holds(score):
         return gated.code

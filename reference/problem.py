@@ -30,6 +30,7 @@ if TYPE_CHECKING:
     from reference.arithmetic.protocols import Arithmetic
     from reference.constants import Constant
     from reference.declaration import ClosedForm, Form, Invariant, Row, Solution, StateSpace, Trial, WorkingBits
+    from reference.input_condition import InputCondition
     from reference.orbits import Orbits
     from reference.row_domains import Domain
     from reference.state_bounds import StateBounds
@@ -224,6 +225,11 @@ class Problem:
         """The period of the motion in its own unit of time; NaN where it has none."""
         return float(self.certified("period")) if self.serves("period") else math.nan
 
+    def time_units(self) -> dict[str, float]:
+        """Units of its own in which its time may be told, in s, by name: of itself the period, where it has one."""
+        period = self.cycle()
+        return {"periods": period} if math.isfinite(period) else {}
+
     def orbits(self) -> Orbits | None:
         """The exact orbits at the precision in force; None where phases and amplitudes are not defined."""
         return None
@@ -241,6 +247,10 @@ class Problem:
 
     def state_bounds(self) -> StateBounds | None:
         """What bounds many of its states in doubles, to spare their proofs; None where nothing does."""
+        return None
+
+    def input_condition(self) -> InputCondition | None:
+        """What tells how far roundings of time, start and parameters lead its states; None where nothing does."""
         return None
 
     event_words: ClassVar[str] = "events"

@@ -111,7 +111,7 @@ LAYERS = (
     ("reference.named",),
     ("reference.arithmetic",),
     ("reference.constants", "reference.row_domains", "compare.methods"),
-    ("reference.declaration", "reference.orbits", "reference.state_bounds"),
+    ("reference.declaration", "reference.input_condition", "reference.orbits", "reference.state_bounds"),
     ("reference.routes",),
     ("reference.certified",),
     ("reference.problem",),

@@ -15,7 +15,7 @@ from compare.claims import local, stiffness, tolerances
 from compare.claims.candidate import Candidate
 from compare.claims.coefficients import slip
 from compare.claims.consistency import advance_of_a_constant_slope, iterates, uses
-from compare.claims.defects import Evidence, reversibility, symplecticity
+from compare.claims.defects import STATES, STEPS_OF_A_DEFECT, Evidence, reversibility, symplecticity
 from compare.claims.energy import kept
 from compare.claims.engine import Lanes, Steps, Traced, Whole, chosen
 from compare.claims.findings import Claims
@@ -223,10 +223,14 @@ def _checked(candidate: Candidate, claims: Claims, scene: Scene, seconds: float)
     until = time.monotonic() + seconds * PURSUED
     h = scene.step
     marcher, calls, timed, name = _marcher(candidate, scene, h)
-    most = _most_steps(marcher, calls, seconds * MARCH)
+    cost = _seconds_of_a_step(marcher)
+    most = _most_steps(marcher, calls, cost, seconds * MARCH)
     counts = ladder(most)
     still = measured(marcher, scene.span, counts, until)
-    _hold_measurable(candidate.name, still, claims)
+    iterating = iterates(candidate, marcher, h)
+    solves = iterating or candidate.form.own
+    advance = None if solves else advance_of_a_constant_slope(candidate, scene, h)
+    _hold_measurable(candidate.name, still, claims, advance)
     swinging = None
     if timed:
         frame = Scene(scene.problem, Frame(FRAME[0], FRAME[1] * scene.pace, scene.units))
@@ -234,14 +238,13 @@ def _checked(candidate: Candidate, claims: Claims, scene: Scene, seconds: float)
         series = lower(powers(candidate, scene, h), powers(candidate, frame, h))
     else:
         series = None if marcher.whole else powers(candidate, scene, h)
-    iterating = iterates(candidate, marcher, h)
     energy, *others = kept(marcher, h, most)
     evidence = Evidence(
         possible=name != "compiled" and still.kind != "own steps",
         iterates=iterating,
         bounded=energy.bounded,
+        states=STATES if cost * STEPS_OF_A_DEFECT <= seconds * MARCH else 1,
     )
-    explicit = not (marcher.whole or iterating or candidate.form.own)
     headed = _heading(candidate, marcher, h)
     back = _back(marcher, counts, until) if claims.backward and headed.backward == "right" else None
     found = Check(
@@ -259,7 +262,7 @@ def _checked(candidate: Candidate, claims: Claims, scene: Scene, seconds: float)
         heading=headed,
         back=back,
         powers=series,
-        advance=advance_of_a_constant_slope(candidate, scene, h) if explicit else None,
+        advance=advance,
     )
     return replace(found, hint=_hint(found, candidate, marcher, scene.span))
 
@@ -271,7 +274,7 @@ def _back(marcher: Marcher, counts: Sequence[int], until: float) -> Order | None
     return measured(marcher, -scene.span, counts, until) if domain.contains(Fraction(-scene.span)) else None
 
 
-def _hold_measurable(name: str, found: Order, claims: Claims) -> None:
+def _hold_measurable(name: str, found: Order, claims: Claims, advance: float | None) -> None:
     """Refuse an integrator of which an order that is claimed cannot be measured, or nothing can.
 
     Raises:
@@ -285,7 +288,7 @@ def _hold_measurable(name: str, found: Order, claims: Claims) -> None:
             f"{name} gives no finite states {where if some else 'however short its steps are'}; finite ones are "
             "accepted."
         )
-    if found.kind == "own steps" and claims.order is not None:
+    if found.kind == "own steps" and claims.order is not None and advance in {None, 1}:
         raise MisuseError(
             f"{name} chooses its own steps: its error is {finest.error:.0e} whatever the spacing of t, so that its "
             "order cannot be measured; no order, or a step of fixed size, is accepted."
@@ -337,14 +340,14 @@ def _trial(candidate: Candidate, scene: Scene, h: float) -> tuple[float, bool]:
     return calls, field.timed
 
 
-def _most_steps(marcher: Marcher, calls: float, seconds: float) -> int:
+def _most_steps(marcher: Marcher, calls: float, cost: float, seconds: float) -> int:
     """The largest number of steps that the budgets of calls and of seconds allow."""
     if isinstance(marcher, Steps) and isinstance(marcher.engine, Traced):
         return MOST_STEPS
     together = isinstance(marcher, Steps) and not isinstance(marcher.engine, Lanes)
     allowed = CALLS_ON_ARRAYS if together else CALLS / LANES_OF_A_LADDER
     steps = int(min(max(allowed / max(calls, 1.0), LEAST_STEPS), MOST_STEPS))
-    within = seconds / _seconds_of_a_step(marcher) / (1 if together else LANES_OF_A_LADDER)
+    within = seconds / cost / (1 if together else LANES_OF_A_LADDER)
     while steps >= 2 * LEAST_STEPS and steps > within:
         steps //= 2
     return steps

@@ -51,7 +51,9 @@ class _Straight(Scene):
 
 
 def advance_of_a_constant_slope(candidate: Candidate, scene: Scene, h: float) -> float:
-    """By how many h an explicit step advances a component whose slope is 1: exactly 1.0 if it is right to rounding.
+    """By how many h a step that solves nothing advances a component whose slope is 1: 1.0 if it is right to rounding.
+
+    Of a whole integrator it is the mean over a few steps.
 
     The worst of the positions under no force, from zero with momenta 1, and the momenta under the force 1, from zero;
     components without a rate are among both.
@@ -71,12 +73,14 @@ def _advances(candidate: Candidate, scene: _Straight, h: float) -> np.ndarray:
     """Of each component with a constant slope, over h; 1 where the step gives no number at such a state."""
     y = np.zeros(scene.dimension)
     y[scene.rates_places] = 1 - scene.force
+    steps = GRID - 1 if candidate.form.whole else 1
     try:
-        found = Lanes(candidate, scene).one(y, h, 0.0)
+        found = _moved(candidate, scene, y, h)
+        found = found[-1] if candidate.form.whole else found
     except (MisuseError, Exhausted):
         return np.ones(len(scene.straight))
     part = found[scene.straight]
-    advance = np.where(np.isfinite(part), part / h, 1.0)
+    advance = np.where(np.isfinite(part), part / (steps * h), 1.0)
     narrow = np.array_equal(found, found.astype(np.float32).astype(np.float64))
     return np.where(np.abs(advance - 1) < NARROW_ROUNDING, 1.0, advance) if narrow else advance
 

@@ -61,6 +61,7 @@ class Field:
 
     def __init__(self, scene: Scene, limit: int, owner: Any = None) -> None:
         self.scene, self.limit, self._owner = scene, limit, owner
+        self._dimension = scene.dimension
         self.calls = 0
         self.timed = False
 
@@ -75,10 +76,10 @@ class Field:
         self.calls += 1
         if self.calls > self.limit:
             raise Exhausted(f"called f more than {self.limit} times")
-        if any(type(one).__module__.partition(".")[0] in {"jax", "jaxlib"} for one in arguments):
+        if arguments and type(arguments[-1]) is not np.ndarray and any(map(_is_of_jax, arguments)):
             return self._traced_by_jax(arguments)
         t, y = self.time_and_state(arguments)
-        if len(y) != self.scene.dimension:
+        if len(y) != self._dimension:
             raise MisuseError(
                 f"f was called with a state of shape {y.shape}; {self.scene.dimension} components along the first axis "
                 "are accepted."
@@ -115,6 +116,10 @@ class Field:
         self.timed = True
         t, y = (first, second) if first.ndim < second.ndim else (second, first)
         return t[()], y
+
+
+def _is_of_jax(value: Any) -> bool:
+    return type(value).__module__.partition(".")[0] in {"jax", "jaxlib"}
 
 
 BINARY32 = Fraction(1, 1 << 24)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import sys
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any, Protocol
@@ -134,7 +135,7 @@ def _doubles(columns: Sequence[np.ndarray]) -> Doubles | None:
     with np.errstate(over="ignore"):
         numbers = np.column_stack([column.astype(np.float64) for column in columns])
     digits = max((np.finfo(column.dtype).nmant + 1) * LOG10_2 for column in columns[1:])
-    return Doubles(numbers, float(digits)) if np.isfinite(numbers).all() else None
+    return Doubles(numbers, float(digits), -math.inf) if np.isfinite(numbers).all() else None
 
 
 def _scalar(number: Any) -> Any:

@@ -6,6 +6,7 @@ that each double is the nearest to the number as written.
 
 from __future__ import annotations
 
+import math
 import re
 from typing import TYPE_CHECKING
 
@@ -36,7 +37,7 @@ class Blocks:
         between = r"[ \t]++" if separator is None else rf" *+{re.escape(separator)} *+"
         row = rf"{number}(?:{between}{number}){{{width - 1}}}"
         self._plain = re.compile(rf"(?:{row}\n)*+", re.ASCII)
-        self._most = 0
+        self._most, self._last = 0, math.inf
 
     def doubles(self, lines: Sequence[str]) -> Doubles | None:
         """Their numbers, or None where a line is not plain or a number is beyond the doubles."""
@@ -52,7 +53,8 @@ class Blocks:
             return None
         for column in columns[1:]:
             self._count(column)
-        return Doubles(numbers, self._most)
+            self._place(column)
+        return Doubles(numbers, self._most, self._last)
 
     def _count(self, words: Iterable[str]) -> None:
         """Learn the significant digits of decimals; one with fewer letters than the most has not more digits."""
@@ -60,3 +62,14 @@ class Blocks:
             digits = letters.lstrip("+-0")
             if len(digits) > self._most:
                 self._most = max(self._most, len(EXPONENT.split(digits, maxsplit=1)[0]))
+
+    def _place(self, words: Sequence[str]) -> None:
+        """Learn the least last place of decimals; one with few letters and no exponent has not more places."""
+        if EXPONENT.search("".join(words)):
+            parts = [EXPONENT.split(word, maxsplit=1) for word in words]
+            found = min(int(rest[0] if rest else 0) - len(mantissa.partition(".")[2]) for mantissa, *rest in parts)
+            self._last = min(self._last, found)
+            return
+        for word in words:
+            if len(word) > -self._last:
+                self._last = min(self._last, -len(word.partition(".")[2]))

@@ -29,10 +29,12 @@ class Doubles(NamedTuple):
     Attributes:
         numbers: float64 [rows, time and state].
         digits: the most digits that a number of the states has.
+        last: the least power of ten of the last digit of a number of the states; -infinite where one is no decimal.
     """
 
     numbers: np.ndarray
     digits: float
+    last: float
 
 
 class Chunk:

@@ -27,10 +27,11 @@ AHEAD = 2
 
 
 class Task(NamedTuple):
-    """A chunk, after so many rows, in an input that holds so many digits."""
+    """A chunk, after so many rows, in an input that holds so many digits, and has this least last place."""
 
     problem: Problem
     held: float
+    last_place: float
     before: int
     chunk: Chunk
 
@@ -68,8 +69,8 @@ class Crew:
         if not judge.rows or chunk.doubles is None or not chunk.increases_from(judge.last):
             found = judge.points(chunk.rows())
             return lambda: self._turned(found)
-        judge.expect([chunk.doubles.digits])
-        task = Task(judge.problem, judge.held, judge.rows, chunk)
+        judge.expect(chunk.doubles.digits, chunk.doubles.last)
+        task = Task(judge.problem, judge.held, judge.last_place, judge.rows, chunk)
         judge.pass_over(len(chunk), chunk.rows([len(chunk) - 1])[0].t)
         future = self._submitted(task)
         if future is None:
@@ -103,7 +104,7 @@ class Crew:
 
 def _exact(task: Task) -> list[Point]:
     judge = Judge(task.problem)
-    judge.expect([task.held])
+    judge.expect(task.held, task.last_place)
     judge.rows = task.before
     return judge.some(range(len(task.chunk)), task.chunk.rows())
 

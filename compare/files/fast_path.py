@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from compare.files.judge import FIRST_ROWS
 from compare.files.scales import SLACK
+from compare.files.slips import FIRST_ROWS
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Mapping
@@ -55,7 +55,7 @@ class Sift:
             BoundError: a row is not within its bounds.
         """
         bounds = self._bounds(chunk) if self._judge.rows or len(chunk) >= WORTH_BOUNDS else None
-        if bounds is None:
+        if bounds is None or chunk.doubles is None:
             return self._crew.points(chunk)
         judge, before, count = self._judge, self._judge.rows, len(chunk)
         rows: dict[int, Row] = {}
@@ -66,14 +66,15 @@ class Sift:
             rows.update(zip(new, chunk.rows(new), strict=True))
             points.update(zip(new, judge.some(new, [rows[place] for place in new]), strict=True) if new else ())
 
+        conditioned = _conditioned(judge, bounds, chunk.doubles.numbers)
         wanted = (number - before - 1 for number in self._running.wanted(before + 1, before + count))
-        look([*wanted, *_extremes(bounds), *(range(FIRST_ROWS) if not before else ())])
-        doubtful = self._doubtful(bounds, self._running.bar(points.values()), chunk)
+        look([*wanted, *_extremes(bounds, conditioned), *(range(FIRST_ROWS) if not before else ())])
+        doubtful = self._doubtful(bounds, conditioned, self._running.bar(points.values()), chunk)
         if len(doubtful) > PART * count:
             return self._crew.points(chunk)
         look(doubtful)
         for place, point in points.items():
-            _hold(point, bounds, place)
+            _hold(point, bounds, conditioned[place], place)
         judge.pass_over(count, rows[count - 1].t)
         return lambda: self._counted(points, bounds)
 
@@ -94,14 +95,14 @@ class Sift:
             return None
         if not chunk.increases_from(self._judge.last):
             return None
-        self._judge.expect([chunk.doubles.digits])
+        self._judge.expect(chunk.doubles.digits, chunk.doubles.last)
         return self._bounder.bounds(chunk.doubles.numbers, ROUNDING)
 
-    def _doubtful(self, bounds: Bounds, bar: Bar, chunk: Chunk) -> list[int]:
+    def _doubtful(self, bounds: Bounds, conditioned: np.ndarray, bar: Bar, chunk: Chunk) -> list[int]:
         """The places of the rows that may pass the bar."""
         phase, amplitude, energy, lost = bounds.found
         may = np.zeros(len(chunk), dtype=bool)
-        measures = (bounds.errors.max(axis=1), phase, amplitude, energy, *bounds.errors.T)
+        measures = (bounds.errors.max(axis=1), phase, amplitude, energy, conditioned, *bounds.errors.T)
         for measure, most in zip(measures, bar.maxima, strict=True):
             if not math.isnan(most):  # a maximum that is not a number stays
                 may |= ~(measure <= most)
@@ -128,13 +129,25 @@ class Sift:
         return True
 
 
-def _extremes(bounds: Bounds) -> set[int]:
+def _conditioned(judge: Judge, bounds: Bounds, numbers: np.ndarray) -> np.ndarray:
+    """At least the errors over what the format must lose of rows of these numbers; NaN where nothing is known of it."""
+    if judge.condition is None:
+        return np.full(len(numbers), np.nan)
+    with np.errstate(all="ignore"):
+        within = bounds.errors - np.abs(bounds.about)
+        least = np.maximum(np.abs(numbers[:, 1:] - bounds.about) - within, 0.0)
+        losses = judge.resolution.losses(least, judge.condition.led(numbers[:, 0])) * (1 - SLACK)
+        found: np.ndarray = (bounds.errors / losses).max(axis=1)
+    return found
+
+
+def _extremes(bounds: Bounds, conditioned: np.ndarray) -> set[int]:
     """The places at which a bound is largest: the rows behind them settle most of the others."""
-    measures = (bounds.errors.max(axis=1), *bounds.found[:3], -bounds.digits.min(axis=1))
+    measures = (bounds.errors.max(axis=1), *bounds.found[:3], -bounds.digits.min(axis=1), conditioned)
     return {int(np.argmax(measure)) for measure in (*measures, *bounds.truths.T)}
 
 
-def _hold(point: Point, bounds: Bounds, place: int) -> None:
+def _hold(point: Point, bounds: Bounds, conditioned: float, place: int) -> None:
     """Hold an exact row against its bounds.
 
     Raises:
@@ -147,6 +160,7 @@ def _hold(point: Point, bounds: Bounds, place: int) -> None:
         (abs(point.phase_error), phase),
         (abs(point.amplitude_error), amplitude),
         (abs(point.energy_error), energy),
+        (point.conditioned, conditioned),
         (bounds.digits[place].min(), point.digits),
     ]
     if any(found > bound for found, bound in pairs) or (math.isnan(point.phase_error) and not lost):

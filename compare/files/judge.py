@@ -1,7 +1,6 @@
 """Rows of written numbers against the proven state at their exact times.
 
-The first rows of a file betray slips: angles and times in other units, numbers in each other's places.  Angles that are
-wrong by whole turns, as a wrapped angle is where the motion's own goes on, are counted over all rows.
+Angles that are wrong by whole turns, as a wrapped angle is where the motion's own goes on, are counted over all rows.
 """
 
 from __future__ import annotations
@@ -10,15 +9,15 @@ import math
 import sys
 from fractions import Fraction
 from functools import partial
-from itertools import combinations
-from statistics import median
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 from flint import arb
 
+from compare.files.conditioned import conditioned, resolution
 from compare.files.record import Running
 from compare.files.scales import Point
+from compare.files.slips import FirstRows, disorder
 from reference.arithmetic.namespaces import BALL
 from reference.arithmetic.precision import ctx
 from reference.arithmetic.underflow import require_gradual
@@ -29,160 +28,15 @@ from reference.problem import Problem
 from reference.routes import enclosure
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Sequence
+    from collections.abc import Iterable, Sequence
 
     from compare.files.chunk import Row
+    from compare.files.conditioned import Resolution
     from compare.files.record import Score
     from compare.files.written import Written
     from reference.orbits import Orbits
 
-__all__ = ["CHUNK", "FIRST_ROWS", "Judge", "Turns", "exchanged"]
-
-FIRST_ROWS = 16
-"""Rows that tell degrees from radians: a poor integrator needs some time to be 57 times wrong."""
-LEAST_ROWS = 3
-"""Rows that tell numbers that are exchanged from ones that happen to be alike."""
-ANGLES = (
-    ("degrees", 180 / math.pi, "pi/180"),
-    ("gradians", 200 / math.pi, "pi/200"),
-    ("milliradians", 1e3, "0.001"),
-    ("arc minutes", 10800 / math.pi, "pi/10800"),
-    ("arc seconds", 648000 / math.pi, "pi/648000"),
-)
-"""Units of angles, how many of them are a radian, and by what they are to be multiplied."""
-TIMES = (
-    ("ms", Fraction(1, 1000), "0.001"),
-    ("µs", Fraction(1, 10**6), "1e-6"),
-    ("ns", Fraction(1, 10**9), "1e-9"),
-    ("minutes", Fraction(60), "60"),
-    ("hours", Fraction(3600), "3600"),
-)
-"""Units of time, what they are in s, and how this is written."""
-CLOSE = 0.02
-"""Relative to such a factor, within which a number is wrong by it."""
-FITS = 1 / 100
-"""Of a number's size, within which rows fit the truth; an integrator that is worse gets no hint."""
-FAILS = 1 / 4
-"""Of a number's size, within which some row does not fit as it is."""
-
-
-def refuse_other_units(
-    names: Sequence[str], units: Sequence[str], rows: Sequence[Row], truths: Sequence[Sequence[arb]]
-) -> None:
-    """Refuse rows whose angles are wrong by the factor that another unit would make them wrong by.
-
-    Raises:
-        ValueError: they are.
-    """
-    given, true = _first(rows, truths)
-    for name, unit, ours, theirs in zip(names, units, given, true, strict=True):
-        size = max(map(abs, theirs))
-        ratios = [a / b for a, b in zip(ours, theirs, strict=True) if abs(b) > size / 8]
-        for what, factor, by in ANGLES if unit.startswith("rad") and ratios else ():
-            near = abs(median(ratios) / factor - 1)
-            if near < CLOSE and (what == "degrees" or _all_near(ratios, factor)):
-                raise ValueError(
-                    f"{name} is {median(ratios):.1f} times the truth, as an angle in {what} would be; {unit} is "
-                    f"accepted, so multiply by {by}."
-                )
-
-
-def _all_near(ratios: Sequence[float], factor: float) -> bool:
-    return len(ratios) >= LEAST_ROWS and all(abs(ratio / factor - 1) < FITS for ratio in ratios)
-
-
-def refuse_other_times(
-    time: str,
-    units: Sequence[str],
-    rows: Sequence[Row],
-    truths: Sequence[Sequence[arb]],
-    truth: Callable[[list[Fraction]], list[Any]],
-) -> None:
-    """Refuse rows that are not where the motion is at their times, and are where it is in other units of time;
-    ``truth`` gives the states at some times.
-
-    Raises:
-        ValueError: they are.
-    """
-    given, true = _first(rows, truths)
-    if len(given[0]) < LEAST_ROWS or max(map(_misfit, given, true)) <= FAILS:
-        return
-    _refuse_times(time, given, rows, true, truth, "")
-    degrees = ANGLES[0][1]
-    turned = [
-        tuple(number / degrees for number in column) if unit.startswith("rad") else column
-        for unit, column in zip(units, given, strict=True)
-    ]
-    _refuse_times(time, turned, rows, true, truth, " and angles in degrees")
-
-
-def _refuse_times(
-    time: str,
-    given: Sequence[tuple[float, ...]],
-    rows: Sequence[Row],
-    true: Sequence[tuple[float, ...]],
-    truth: Callable[[list[Fraction]], list[Any]],
-    also: str,
-) -> None:
-    for what, factor, by in TIMES:
-        instants = [row.t.value * factor for row in rows[:FIRST_ROWS]]
-        last = _states(truth, instants[-1:])
-        if not last or not all(_near(a[-1], b, c) for a, (b,), c in zip(given, last, true, strict=True)):
-            continue
-        found = _states(truth, instants)
-        if found and max(map(_misfit, given, found)) < FITS:
-            raise ValueError(
-                f"the first {len(instants)} rows fit the truth where {time} is in {what}{also}, and not where it is in "
-                f"s, which is accepted, so multiply {time} by {by}{', and angles by pi/180' if also else ''}."
-            )
-
-
-def _states(truth: Callable[[list[Fraction]], list[Any]], instants: list[Fraction]) -> list[tuple[float, ...]]:
-    """The truths at some times, as columns; [] where there is no motion then."""
-    try:
-        return _columns([list(map(float, state)) for state in truth(instants)])
-    except ValueError:  # a descent ends
-        return []
-
-
-def _near(given: float, found: float, others: Sequence[float]) -> bool:
-    """Whether a number may be another, against the size that it has elsewhere."""
-    return abs(given - found) <= FITS * max(abs(found), *map(abs, others))
-
-
-def exchanged(names: Sequence[str], rows: Sequence[Row], truths: Sequence[Sequence[arb]]) -> str:
-    """A sentence where two numbers of the state fit each other's truth, and not their own; "" else."""
-    given, true = _first(rows, truths)
-    count = len(given[0])
-    for i, j in combinations(range(len(names)), 2):
-        other = max(_misfit(given[j], true[i]), _misfit(given[i], true[j]))
-        own = max(_misfit(given[i], true[i]), _misfit(given[j], true[j]))
-        if count >= LEAST_ROWS and other < FITS and own > FAILS:
-            return (
-                f"The first {count} rows fit the truth where {names[i]} and {names[j]} are exchanged, and not as they "
-                "are: each may be in the other's place."
-            )
-    return ""
-
-
-def _first(
-    rows: Sequence[Row], truths: Sequence[Sequence[arb]]
-) -> tuple[list[tuple[float, ...]], list[tuple[float, ...]]]:
-    """The numbers of the first rows and their truths, each as columns."""
-    given = [[float(BALL.number(number.value)) for number in row.state] for row in rows[:FIRST_ROWS]]
-    true = [list(map(float, truth)) for truth in truths[:FIRST_ROWS]]
-    return _columns(given), _columns(true)
-
-
-def _columns(rows: Iterable[Sequence[float]]) -> list[tuple[float, ...]]:
-    return list(zip(*rows, strict=True))
-
-
-def _misfit(given: Sequence[float], true: Sequence[float]) -> float:
-    """The largest difference, of the truth's largest size; infinite where that is zero."""
-    size = max(map(abs, true))
-    return max(abs(a - b) for a, b in zip(given, true, strict=True)) / size if size else math.inf
-
+__all__ = ["CHUNK", "Judge", "Turns"]
 
 TURN = 2 * math.pi
 NEAR = 0.5
@@ -256,6 +110,8 @@ class Judge:
     Attributes:
         time: what the state is a function of: "t", or the name of another time, such as "tau".
         held: the digits that the input can hold: the most that any of its numbers so far has.
+        last_place: the least power of ten of the last digit of its numbers so far; -infinite where one is no decimal.
+        condition: what tells the condition of the truth, or None.
         rows: how many rows are judged, and ``last`` the time of the last of them.
         turns: counts the angles that are wrong by whole turns, of all rows.
 
@@ -272,7 +128,8 @@ class Judge:
         consistent(problem)
         self.problem = problem
         self.time = _time(problem)
-        self.held = 0.0
+        self.held, self.last_place = 0.0, math.inf
+        self.condition = problem.input_condition()
         self._units = tuple(quantity.units for quantity in problem.row("state").quantities)
         self.turns = Turns(problem.state_names, self._units)
         self.rows = 0
@@ -284,9 +141,19 @@ class Judge:
         start = [_log_size(BALL.number(value)) for value in self.problem.start]
         return Running(self.problem.state_names, keep, start)
 
-    def expect(self, digits: Iterable[float]) -> None:
-        """Learn the digits of numbers to come."""
-        self.held = max(self.held, max(digits, default=0.0))
+    def expect(self, digits: float, last: float) -> None:
+        """Learn the digits and the least last place of numbers to come."""
+        self.held, self.last_place = max(self.held, digits), min(self.last_place, last)
+
+    def expect_numbers(self, numbers: Iterable[Written]) -> None:
+        """Learn them of the numbers themselves."""
+        for number in numbers:
+            self.expect(number.digits, -math.inf if number.last is None else number.last)
+
+    @property
+    def resolution(self) -> Resolution:
+        """What the format of the numbers so far resolves."""
+        return resolution(self.held, self.last_place)
 
     def points(self, rows: Sequence[Row]) -> list[Point]:
         """Judge the next rows; their digits are not yet capped at what the input can hold, nor their turns counted.
@@ -295,7 +162,7 @@ class Judge:
             ValueError: the times do not increase, an angle is in degrees, or an error is beyond the range of doubles.
         """
         self._refuse_disorder(rows)
-        self.expect(number.digits for row in rows for number in row.state)
+        self.expect_numbers(number for row in rows for number in row.state)
         found = self.some(range(len(rows)), rows)
         self.pass_over(len(rows), rows[-1].t)
         return found
@@ -308,20 +175,30 @@ class Judge:
         """
         bits = math.ceil(self.held * math.log2(10)) + SPARE_BITS
         instants = [row.t.value for row in rows]
-        truths = enclosure.balls(self.problem, "state", instants, bits)
+        truths = self._truths(instants, bits)
         if not self.rows and not places[0]:
-            refuse_other_units(self.problem.state_names, self._units, rows, truths)
-            if self.time == "t":
-                refuse_other_times(
-                    self.time, self._units, rows, truths, partial(enclosure.balls, self.problem, "state", bits=bits)
-                )
-            self._slip = exchanged(self.problem.state_names, rows, truths)
+            first = FirstRows(self.problem, self.time, rows, truths, partial(self._truths, bits=bits))
+            first.refuse_other_units()
+            first.refuse_other_times()
+            self._slip = first.exchanged()
         with ctx.workprec(bits + SPARE_BITS + self.problem.working_bits(instants) + _whole_bits(rows)):
             bench = _Bench(self.problem, bits)
             return [
-                bench.point(self.rows + place + 1, row, truth)
-                for place, row, truth in zip(places, rows, truths, strict=True)
+                bench.point(self.rows + place + 1, row, truth, lost)
+                for place, row, truth, lost in zip(places, rows, truths, self._losses(instants, truths), strict=True)
             ]
+
+    def _losses(self, instants: list[Fraction], truths: list[tuple[arb, ...]]) -> list[list[float]]:
+        """What the format must lose of the numbers at some times; NaN where that is not known."""
+        if self.condition is None:
+            return [[math.nan] * len(self._units)] * len(instants)
+        times = [float(t) if abs(t) <= sys.float_info.max else math.inf for t in instants]
+        sizes = np.abs(np.array([list(map(float, truth)) for truth in truths]))
+        with np.errstate(all="ignore"):
+            return self.resolution.losses(sizes, self.condition.led(np.array(times))).tolist()  # type: ignore[no-any-return]
+
+    def _truths(self, instants: list[Fraction], bits: int) -> list[tuple[arb, ...]]:
+        return enclosure.balls(self.problem, "state", instants, bits)
 
     def pass_over(self, count: int, last: Written) -> None:
         """Go on to the rows after the next ``count``, of which the last has this time."""
@@ -337,7 +214,8 @@ class Judge:
         """The summary of all rows so far, which ``running`` took in; ``times`` says how times were read, and ``notes``
         what else is to be known of the file.
         """
-        return running.score(repr(self.problem), self._units, self.held, times, (*notes, *self._notes(running)))
+        told = (*notes, *self._notes(running))
+        return running.score(repr(self.problem), self._units, self.held, self.resolution, times, told)
 
     def _notes(self, running: Running) -> tuple[str, ...]:
         """What could not be judged, or is to be known of it, in sentences."""
@@ -363,8 +241,7 @@ class Judge:
         last = self.last
         for t, _, place in rows:
             if last is not None and t.value <= last.value:
-                fault = "is repeated" if t.value == last.value else f"comes after {self.time} = {last.text}"
-                raise ValueError(f"{self.time} = {t.text} in {place} {fault}; increasing times are accepted.")
+                raise ValueError(disorder(self.time, rows, t, last, place))
             last = t
 
 
@@ -394,8 +271,8 @@ class _Bench:
         if problem.invariants and problem.invariants[0].scale == "kinetic":
             self._scale = arb(problem.kinetic(BALL, start, self._parameters))
 
-    def point(self, number: int, row: Row, truth: Sequence[arb]) -> Point:
-        """Judge one row.
+    def point(self, number: int, row: Row, truth: Sequence[arb], losses: Sequence[float]) -> Point:
+        """Judge one row, of whose numbers the format must lose so much.
 
         Raises:
             ValueError: an error is beyond the range of doubles.
@@ -425,6 +302,8 @@ class _Bench:
             phase_error=phase,
             amplitude_error=amplitude,
             energy_error=energy,
+            conditioned=conditioned(floats, losses),
+            instant=t.value,
             scaled_digits=math.nan,
             relative=relative,
             sizes=tuple(

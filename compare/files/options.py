@@ -23,6 +23,7 @@ if TYPE_CHECKING:
 
 __all__ = ["add_options", "options"]
 
+FORMS = (*FORMATS, "html")
 SHOWN_ROWS = 24
 SETTINGS = (
     *("file", "problem", "columns", "skip", "comment", "rows", "exact", "min_digits", "max_error"),
@@ -42,7 +43,7 @@ def add_options(parser: argparse.ArgumentParser, families: Sequence[Family]) -> 
     parser.add_argument("--min-digits", metavar="D", help="exit code 1 where a row has fewer correct digits on scale")
     parser.add_argument("--max-error", metavar="E", help="exit code 1 where a row has a larger error")
     add_baseline(parser, f"{ERROR_FACTOR:g}")
-    parser.add_argument("--format", type=one_of("format", FORMATS), default="text", help=", ".join(FORMATS))
+    parser.add_argument("--format", type=one_of("format", FORMS), default="text", help=", ".join(FORMS))
     parser.add_argument("--quiet", action="store_true", help="nothing on stderr but errors")
     texts: dict[str, str] = {}
     for family in families:

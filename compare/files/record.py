@@ -11,7 +11,12 @@ from compare.files.scales import Point, Scales, near_zero
 if TYPE_CHECKING:
     from collections.abc import Collection, Iterable, Sequence
 
+    from compare.files.conditioned import Resolution
+
 __all__ = ["Bar", "Running", "Score"]
+
+CONDITIONED = 4
+"""The place of the errors over what the format must lose among the maxima."""
 
 
 @dataclass(frozen=True)
@@ -31,6 +36,9 @@ class Score:
         max_phase_error: rad; NaN where a row has no phase.
         max_amplitude_error: in the units of the first number of the state; NaN where a row has no amplitude.
         max_energy_error: relative to the energy above rest; NaN where the problem has no invariant.
+        max_conditioned_error: the largest error of a row over what the format must lose, of
+            ``compare.files.conditioned``; ``max_conditioned_row`` is the number of the first row that has it; NaN and
+            None where that is not known.
         times: how times were read: "as written", or "binary64" where each is the double that it spells.
         notes: sentences on what could not be judged.
         points: the rows themselves, or those that were kept of them.
@@ -51,6 +59,8 @@ class Score:
     max_phase_error: float
     max_amplitude_error: float
     max_energy_error: float
+    max_conditioned_error: float
+    max_conditioned_row: int | None
     times: str
     notes: tuple[str, ...]
     points: tuple[Point, ...] = field(repr=False)
@@ -60,7 +70,8 @@ class Bar(NamedTuple):
     """The extremes so far.
 
     Attributes:
-        maxima: of the errors of a row, of phase, amplitude and energy, and of each number of the state; a NaN stays.
+        maxima: of the errors of a row, of phase, amplitude and energy, over what the format must lose, and of each
+            number of the state; a NaN stays.
         worst: the fewest correct digits, and the number of the first row that has so few.
         first_lost: the number of the first known row without a phase; infinite where none is known.
         truths: the sizes of the truths up to which no scale changes.
@@ -88,7 +99,8 @@ class Running:
         self._last: Point | None = None
         self._worst: Point | None = None
         self._lost: Point | None = None
-        self._maxima = [0.0] * (4 + len(names))
+        self._maxima = [0.0] * (5 + len(names))
+        self._strained: Point | None = None
         self._scales = Scales(start)
         self._farthest: list[Point | None] = [None] * len(names)
         self._zeros: list[Point | None] = [None] * len(names)
@@ -110,6 +122,8 @@ class Running:
             self._maxima = self._raised(self._maxima, point)
             if self._worst is None or point.digits < self._worst.digits:
                 self._worst = point
+            if self._strained is None or point.conditioned > self._strained.conditioned:
+                self._strained = point
             if self._lost is None and math.isnan(point.phase_error):
                 self._lost = point
             self._choose(point)
@@ -126,7 +140,8 @@ class Running:
 
     @staticmethod
     def _raised(maxima: Iterable[float], point: Point) -> list[float]:
-        found = point.error, point.phase_error, point.amplitude_error, point.energy_error, *point.errors
+        orbital = point.phase_error, point.amplitude_error, point.energy_error
+        found = point.error, *orbital, point.conditioned, *point.errors
         return [_larger(a, abs(b)) for a, b in zip(maxima, found, strict=True)]
 
     def _choose(self, point: Point) -> None:
@@ -155,7 +170,15 @@ class Running:
         """The first row without a phase."""
         return self._lost
 
-    def score(self, problem: str, units: tuple[str, ...], held: float, times: str, notes: tuple[str, ...]) -> Score:
+    def score(
+        self,
+        problem: str,
+        units: tuple[str, ...],
+        held: float,
+        resolution: Resolution,
+        times: str,
+        notes: tuple[str, ...],
+    ) -> Score:
         """The summary, with every row's digits at most the ``held`` that the input can hold.
 
         Raises:
@@ -164,9 +187,10 @@ class Running:
         if self._first is None or self._last is None or self._worst is None:
             raise ValueError("there are no rows; at least one is accepted.")
         held = self._scales.held(held)
-        worst, scaled = self._least(self._worst, self._first, held)
-        kept = {point.number: point for point in (*self._kept, worst, scaled, self._last)}
-        error, phase, amplitude, energy, *errors = self._maxima
+        worst, scaled = self._least(self._worst, self._first, held, resolution)
+        strained = self._most(held, resolution)
+        kept = {point.number: point for point in (*self._kept, worst, scaled, *filter(None, [strained]), self._last)}
+        error, phase, amplitude, energy, _, *errors = self._maxima
         remark = near_zero(worst, self._scales, self._names, held)
         return Score(
             problem=problem,
@@ -184,23 +208,33 @@ class Running:
             max_phase_error=phase,
             max_amplitude_error=amplitude,
             max_energy_error=energy,
+            max_conditioned_error=math.nan if strained is None else strained.conditioned,
+            max_conditioned_row=None if strained is None else strained.number,
             times=times,
             notes=(*notes, *([remark] if remark else [])),
-            points=tuple(self.resolved(kept[number], held) for number in sorted(kept)),
+            points=tuple(self.resolved(kept[number], held, resolution) for number in sorted(kept)),
         )
 
-    def _least(self, worst: Point, first: Point, held: float) -> tuple[Point, Point]:
+    def _most(self, held: float, resolution: Resolution) -> Point | None:
+        """The first row with the largest error over what the format must lose; None where one has none."""
+        found = [point for point in (self._strained, *self._zeros) if point is not None]
+        rows = [self.resolved(point, held, resolution) for point in found]
+        if math.isnan(self._maxima[CONDITIONED]) or not rows:
+            return None
+        return max(rows, key=lambda point: (point.conditioned, -point.number))
+
+    def _least(self, worst: Point, first: Point, held: float, resolution: Resolution) -> tuple[Point, Point]:
         """The rows with the fewest digits and the fewest on the scales; the first where all have all that is held."""
-        rows = [self.resolved(point, held) for point in (worst, *self._zeros) if point is not None]
+        rows = [self.resolved(point, held, resolution) for point in (worst, *self._zeros) if point is not None]
         least = min(rows, key=lambda point: (point.digits, point.number))
         far = [point for point in self._farthest if point is not None]
         farthest = min(far, key=lambda point: (min(self._scales.digits(point)), point.number))
-        start, end = self.resolved(first, held), self.resolved(farthest, held)
+        start, end = self.resolved(first, held, resolution), self.resolved(farthest, held, resolution)
         return least if least.digits < held else start, end if end.scaled_digits < held else start
 
-    def resolved(self, point: Point, held: float) -> Point:
+    def resolved(self, point: Point, held: float, resolution: Resolution) -> Point:
         """A row with its digits on the scales of the rows so far, and at most the ``held`` that the input can hold."""
-        return self._scales.resolved(point, held)
+        return self._scales.resolved(point, held, resolution)
 
 
 def _larger(a: float, b: float) -> float:

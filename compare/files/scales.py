@@ -16,6 +16,9 @@ from compare.files.written import BINARY64_DIGITS
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
+    from fractions import Fraction
+
+    from compare.files.conditioned import Resolution
 
 __all__ = ["SLACK", "Point", "Scales", "near_zero"]
 
@@ -44,6 +47,9 @@ class Point:
         phase_error: rad, 2 pi per period, positive where the state is ahead; NaN where it has no phase.
         amplitude_error: in the units of the first number of the state; NaN where it has no amplitude.
         energy_error: (E - E0)/(E0 - Emin), or the invariant itself where it starts at zero.
+        conditioned: the largest error over what the format must lose (``compare.files.conditioned``); NaN where that
+            is not known.
+        instant: the time, exactly.
         relative: the digits of each number relative to its truth, infinite where it is met; NaN where that is exactly
             zero and is not met.
         sizes: log10 |number - truth| of each, -infinite where the truth is met as far as it is known.
@@ -60,6 +66,8 @@ class Point:
     phase_error: float
     amplitude_error: float
     energy_error: float
+    conditioned: float
+    instant: Fraction = field(repr=False)
     scaled_digits: float = field(repr=False)
     relative: tuple[float, ...] = field(repr=False)
     sizes: tuple[float, ...] = field(repr=False)
@@ -102,12 +110,20 @@ class Scales:
             for (mantissa, decade), size in zip(map(_rounded, self._logs), point.sizes, strict=True)
         )
 
-    def resolved(self, point: Point, held: float) -> Point:
-        """The row with its digits, of which the input can hold ``held``: a truth of zero has them on its scale."""
+    def resolved(self, point: Point, held: float, resolution: Resolution) -> Point:
+        """The row with its digits, of which the input can hold ``held``: a truth of zero has them on its scale, and its
+        error too.
+        """
         held = self.held(held)
         scaled = [max(0.0, digits) for digits in self.digits(point)]
         own = [b if math.isnan(a) else a for a, b in zip(point.relative, scaled, strict=True)]
-        return replace(point, digits=min([*own, held]), scaled_digits=min([*scaled, held]))
+        zeros = [
+            resolution.of_zero(abs(error), scale)
+            for digits, error, scale in zip(point.relative, point.errors, self.values, strict=True)
+            if math.isnan(digits)
+        ]
+        conditioned = point.conditioned if math.isnan(point.conditioned) else max([point.conditioned, *zeros])
+        return replace(point, digits=min([*own, held]), scaled_digits=min([*scaled, held]), conditioned=conditioned)
 
 
 def _rounded(log: float) -> tuple[float, int]:

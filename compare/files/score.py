@@ -36,6 +36,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping, Sequence
 
     from compare.files.chunk import Chunk
+    from compare.files.conditioned import Resolution
     from compare.files.limits import Limits
     from compare.files.lines import Passed
     from compare.files.record import Score
@@ -65,7 +66,7 @@ def score(problem: Problem, t: Any, y: Any) -> Score:
     states = [_state(row, number, problem.state_names) for number, row in enumerate(_listed(y, "y"), start=1)]
     if len(times) != len(states):
         raise ValueError(f"t has {len(times)} times and y {len(states)} rows; equally many are accepted.")
-    judge.expect(number.digits for state in states for number in state)
+    judge.expect_numbers(number for state in states for number in state)
     running = judge.running(None)
     rows = [
         Row(when, state, f"row {number}")
@@ -174,7 +175,7 @@ class Submission:
         columns: the file's names of the time and the state, or None for the usual ones.
         passed: which lines of a text are no part of its table.
         rows: how many rows are shown at most.
-        form: text, markdown, latex, json or csv; the last shows every row.
+        form: text, markdown, latex, json, html or csv; the last shows every row.
         limits: what is asked of the score.
     """
 
@@ -203,7 +204,7 @@ def judged(asked: Submission, write: Callable[[str], None], progress: Callable[[
         OSError: the file is missing or cannot be read.
         ValueError: it, or what was asked, is not as it must be; one sentence says what is accepted.
     """
-    problem = _problem(asked)
+    problem = problem_of(asked)
     judge = Judge(problem)
     columns = Columns((judge.time, *problem.state_names), asked.columns, judge.units)
     rows = Rows(asked.file, columns, asked.passed, as_written=asked.exact)
@@ -211,11 +212,13 @@ def judged(asked: Submission, write: Callable[[str], None], progress: Callable[[
     done = 0
     with Crew(judge) as crew:
         sift = Sift(judge, running, crew)
-        for points, held, count in _found(rows, judge, crew, crew.points if asked.form == "csv" else sift.points):
+        for points, held, resolution, count in _found(
+            rows, judge, crew, crew.points if asked.form == "csv" else sift.points
+        ):
             running.add(points)
             if asked.form == "csv":
                 write("" if done else csv_header(problem.state_names))
-                write(csv_rows(running.resolved(p, held) for p in points))
+                write(csv_rows(running.resolved(p, held, resolution) for p in points))
             done += count
             if progress is not None:
                 progress(f"{done} rows")
@@ -224,20 +227,20 @@ def judged(asked: Submission, write: Callable[[str], None], progress: Callable[[
 
 def _found(
     rows: Rows, judge: Judge, crew: Crew, judged: Callable[[Chunk], Callable[[], list[Point]]]
-) -> Iterator[tuple[list[Point], float, int]]:
-    """What is found of each chunk, the digits that the input holds up to there, and how many rows it has."""
-    waiting: deque[tuple[Callable[[], list[Point]], float, int]] = deque()
+) -> Iterator[tuple[list[Point], float, Resolution, int]]:
+    """What is found of each chunk, what the input holds and resolves up to there, and how many rows it has."""
+    waiting: deque[tuple[Callable[[], list[Point]], float, Resolution, int]] = deque()
     for chunk in rows.chunks(CHUNK):
         found = judged(chunk)
-        waiting.append((found, judge.held, len(chunk)))
+        waiting.append((found, judge.held, judge.resolution, len(chunk)))
         while len(waiting) > crew.ahead:
-            found, held, count = waiting.popleft()
-            yield found(), held, count
-    for found, held, count in waiting:
-        yield found(), held, count
+            found, held, resolution, count = waiting.popleft()
+            yield found(), held, resolution, count
+    for found, held, resolution, count in waiting:
+        yield found(), held, resolution, count
 
 
-def _problem(asked: Submission) -> Problem:
+def problem_of(asked: Submission) -> Problem:
     """The problem, from the options of its family.
 
     Raises:

@@ -12,16 +12,40 @@ from compare.show.render import csv_text
 from compare.show.text_table import Column, Grid, Table
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Iterable, Sequence
 
     from compare.files.limits import Limits
     from compare.files.record import Score
     from compare.files.scales import Point
 
-__all__ = ["csv_header", "csv_rows", "marked", "page"]
+__all__ = ["ERRORS", "GOOD", "csv_header", "csv_rows", "marked", "named_ulps", "page", "parts_of", "summary_line"]
 
 ERRORS = ("phase_error", "amplitude_error", "energy_error")
+GOOD = "No error is larger than what the format must lose: the numbers are as good as it can hold them."
+LARGE = 100
+"""A number of ulps that is shown with an exponent."""
+EXPONENT = re.compile(r"([^eEdDqQ]*)(.*)", re.DOTALL)
+"""A mantissa, and what is behind it."""
 NOTE = "[ ] holds the first wrong digit of a number; where there is none, every digit is right."
+
+
+def parts_of(text: str, place: int | None) -> tuple[str, str, str]:
+    """A number's right digits, its wrong ones, from that which has this place among its significant digits, from 1, and
+    its exponent: joined they are the number.  No digit is wrong where that one is not written, or place is None.
+    """
+    mantissa, exponent = EXPONENT.fullmatch(text).groups()  # type: ignore[union-attr]
+    digits = [i for i, letter in enumerate(mantissa) if letter.isdigit()]
+    if place is None or "/" in text or not digits:
+        return text, "", ""
+    at = _leading(mantissa, digits) + place - 1
+    if at >= len(digits):
+        return mantissa, "", exponent
+    return mantissa[: digits[at]], mantissa[digits[at] :], exponent
+
+
+def _leading(mantissa: str, digits: Sequence[int]) -> int:
+    """Which of the digits, at these places, is the first significant one."""
+    return next((n for n, i in enumerate(digits) if mantissa[i] != "0"), len(digits) - 1)
 
 
 def marked(text: str, place: int | None) -> str:
@@ -29,17 +53,14 @@ def marked(text: str, place: int | None) -> str:
 
     A digit beyond those written is shown: it is the zero that was left out.
     """
+    right, wrong, exponent = parts_of(text, place)
+    if wrong:
+        return f"{right}[{wrong[0]}]{wrong[1:]}{exponent}"
     if place is None or "/" in text:
         return text
-    mantissa, exponent = re.fullmatch(r"([^eEdDqQ]*)(.*)", text, re.DOTALL).groups()  # type: ignore[union-attr]
-    digits = [i for i, letter in enumerate(mantissa) if letter.isdigit()]
-    leading = next((n for n, i in enumerate(digits) if mantissa[i] != "0"), len(digits) - 1)
-    missing = leading + place - len(digits)
-    if missing > 0:
-        mantissa += ("" if "." in mantissa else ".") + "0" * missing
-        return f"{mantissa[:-1]}[0]{exponent}"
-    at = digits[leading + place - 1]
-    return f"{mantissa[:at]}[{mantissa[at]}]{mantissa[at + 1 :]}{exponent}"
+    digits = [i for i, letter in enumerate(right) if letter.isdigit()]
+    missing = _leading(right, digits) + place - len(digits)
+    return f"{right}{'' if '.' in right else '.'}{'0' * (missing - 1)}[0]{exponent}"
 
 
 def page(score: Score, limits: Limits = NONE) -> Page:
@@ -54,17 +75,20 @@ def _table(score: Score) -> Table:
     title = f"{score.problem}: times read {'as the doubles they spell' if score.times == 'binary64' else 'as written'}"
     wide = any(len(value) > 40 for point in score.points for value in point.values)
     columns = [Column("row"), Column("t"), *(Column(name, left=True) for name in score.names)]
+    known = not math.isnan(score.max_conditioned_error)
     columns += [
         Column("digits"),
         Column("on scale"),
         Column("error"),
+        *([Column("condition ulps")] if known else []),
         *(Column(name.removesuffix("_error"), "error of") for name in ERRORS),
     ]
-    rows = tuple(_cells(point) for point in score.points)
+    rows = tuple(_cells(point, known=known) for point in score.points)
     tables = _split(columns, rows, 2 + len(score.names)) if wide else (Grid(tuple(columns), rows),)
     shown = len(score.points)
     legend = NOTE if shown == score.rows else f"{NOTE} {shown} of {score.rows} rows are shown."
-    return Table("score", title, tables, " ".join((legend, *score.notes)))
+    good = [GOOD] if score.max_conditioned_error <= 1 else []
+    return Table("score", title, tables, " ".join((legend, *good, *score.notes)))
 
 
 def _split(columns: list[Column], rows: tuple[tuple[str, ...], ...], at: int) -> tuple[Grid, ...]:
@@ -75,7 +99,7 @@ def _split(columns: list[Column], rows: tuple[tuple[str, ...], ...], at: int) ->
     )
 
 
-def _cells(point: Point) -> tuple[str, ...]:
+def _cells(point: Point, *, known: bool) -> tuple[str, ...]:
     values = map(marked, point.values, point.first_wrong)
     errors = (_size(getattr(point, name)) for name in ERRORS)
     return (
@@ -85,12 +109,18 @@ def _cells(point: Point) -> tuple[str, ...]:
         f"{point.digits:.1f}",
         f"{point.scaled_digits:.1f}",
         _size(point.error),
+        *([named_ulps(point.conditioned)] if known else []),
         *errors,
     )
 
 
 def _size(error: float) -> str:
     return "-" if math.isnan(error) else f"{error:.1e}"
+
+
+def named_ulps(error: float) -> str:
+    """An error over what the format must lose, as it is shown."""
+    return f"{error:.1e}" if error >= LARGE else f"{error:.2g}"
 
 
 def summary_line(score: Score) -> str:
@@ -107,6 +137,8 @@ def summary_line(score: Score) -> str:
         ("energy", score.max_energy_error, ""),
     ):
         parts.append(f"{what} {_size(value)}{units}" if not math.isnan(value) else f"{what} -")
+    if score.max_conditioned_row is not None:
+        parts.append(f"{named_ulps(score.max_conditioned_error)} condition ulps (row {score.max_conditioned_row})")
     return ", ".join(parts)
 
 
@@ -129,13 +161,14 @@ def _point(point: Point, names: tuple[str, ...]) -> dict[str, Any]:
         "errors": dict(zip(names, point.errors, strict=True)),
         "first_wrong_digit": dict(zip(names, point.first_wrong, strict=True)),
         **{name: getattr(point, name) for name in ERRORS},
+        "conditioned_error": point.conditioned,
     }
 
 
 def csv_header(names: Iterable[str]) -> str:
     """The first line of the rows as CSV."""
     parts = [f"{name}{suffix}" for suffix in ("_error", "_first_wrong_digit") for name in names]
-    return csv_text([["row", "t", *names, "digits", "error", *parts, *ERRORS]])
+    return csv_text([["row", "t", *names, "digits", "error", *parts, *ERRORS, "conditioned_error"]])
 
 
 def csv_rows(points: Iterable[Point]) -> str:
@@ -149,7 +182,10 @@ def csv_rows(points: Iterable[Point]) -> str:
             point.error,
             *point.errors,
             *point.first_wrong,
-            *(None if math.isnan(error) else error for error in (getattr(point, name) for name in ERRORS)),
+            *(
+                None if math.isnan(error) else error
+                for error in (*(getattr(point, name) for name in ERRORS), point.conditioned)
+            ),
         ]
         for point in points
     )

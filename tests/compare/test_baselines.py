@@ -73,7 +73,7 @@ def check_without_a_process(patch):
 
     measured = check()
     patch.setattr("compare.claims.contained.contained", answered)
-    patch.setattr("compare.claims.checking.check", lambda **_options: measured)
+    patch.setattr("compare.claims.tried.check", lambda _step, **_options: measured)
 
 
 @pytest.fixture

@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 
 import compare
+from compare.files.conditioned import resolution
 from compare.files.record import Running
 from compare.files.show import marked
 from reference import Pendulum
@@ -285,7 +286,7 @@ def test_of_many_rows_an_even_choice_is_kept_with_the_worst_and_the_last():
     running = Running(("theta", "omega"), keep=16, start=(0.0, 0.0))
     for begin in range(0, 300, 7):
         running.add(points[begin : begin + 7])
-    found = running.score("p", ("rad", "rad s-1"), 16.0, "as written", ())
+    found = running.score("p", ("rad", "rad s-1"), 16.0, resolution(16.0, -16), "as written", ())
     numbers = [point.number for point in found.points]
     assert (found.rows, found.worst_row) == (300, 201)
     assert {1, 201, 300} <= set(numbers)

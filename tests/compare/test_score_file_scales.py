@@ -106,7 +106,7 @@ def test_errors_smaller_than_any_double_are_counted():
     assert compare.score(tiny, [0], [["1.001e-400", "0"]]).worst_scaled_digits == pytest.approx(3)
 
 
-def sifted(problem: Pendulum, table: np.ndarray) -> tuple[Running, list[Point], float]:
+def sifted(problem: Pendulum, table: np.ndarray) -> tuple[Running, list[Point], Judge]:
     judge, seen = Judge(problem), []
     running = judge.running(7)
     points = Sift(judge, running, Crew(judge, others=0)).points
@@ -114,7 +114,7 @@ def sifted(problem: Pendulum, table: np.ndarray) -> tuple[Running, list[Point], 
         found = points(part)()
         running.add(found)
         seen += found
-    return running, seen, judge.held
+    return running, seen, judge
 
 
 @pytest.mark.parametrize("problem", [SWING, TURNING, NARROW, WIDE, BACK])
@@ -127,15 +127,21 @@ def test_the_worst_rows_of_a_long_file_are_the_worst_of_all_its_rows(problem, be
     y += np.random.default_rng(begin + 2000).standard_normal(y.shape) * 1e-12 * size
     y[-begin, 1] += 1e-7 * size[1]
     table = np.column_stack([t, y])
-    running, seen, held = sifted(problem, table)
-    short, every = running.score("p", ("rad", "rad s-1"), held, "as written", ()), compare.score(problem, t, y)
-    for name in ("worst_digits", "worst_row", "worst_scaled_digits", "worst_scaled_row", "scales", "max_errors"):
+    running, seen, judge = sifted(problem, table)
+    short, every = judge.score(running, "as written"), compare.score(problem, t, y)
+    worst = ("worst_digits", "worst_row", "worst_scaled_digits", "worst_scaled_row")
+    for name in (*worst, "scales", "max_errors", "max_conditioned_error", "max_conditioned_row"):
         assert getattr(short, name) == getattr(every, name)
     rows = {point.number: point for point in every.points}
     assert all(rows[point.number] == point for point in short.points)
     assert {short.worst_row, short.worst_scaled_row} <= {point.number for point in short.points}
     digits = [point.digits for point in every.points]
     scaled = [point.scaled_digits for point in every.points]
+    conditioned = [point.conditioned for point in every.points]
+    assert (every.max_conditioned_error, every.max_conditioned_row) == (
+        max(conditioned),
+        conditioned.index(max(conditioned)) + 1,
+    )
     assert (every.worst_digits, every.worst_row) == (min(digits), digits.index(min(digits)) + 1)
     assert (every.worst_scaled_digits, every.worst_scaled_row) == (min(scaled), scaled.index(min(scaled)) + 1)
     assert len(seen) < 1500
@@ -143,7 +149,7 @@ def test_the_worst_rows_of_a_long_file_are_the_worst_of_all_its_rows(problem, be
 
 def point(*truths: float) -> Point:
     zeros = (0.0,) * len(truths)
-    return Point(1, "0", ("0",) * len(truths), 0, 0, zeros, (1,), 0, 0, 0, 0, zeros, zeros, truths)
+    return Point(1, "0", ("0",) * len(truths), 0, 0, zeros, (1,), 0, 0, 0, 0, Fraction(0), 0, zeros, zeros, truths)
 
 
 @pytest.mark.parametrize("size", [1.0, 0.999999, 3.06843, 9.999999, 1e-12, 1.00000499, 5e-320, 1.7e308])

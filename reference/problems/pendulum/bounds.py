@@ -20,6 +20,7 @@ from __future__ import annotations
 
 import math
 from fractions import Fraction
+from functools import lru_cache
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -34,7 +35,7 @@ from reference.state_bounds import Bounds, Found
 if TYPE_CHECKING:
     from reference.problem import Problem
 
-__all__ = ["SLACK", "PendulumBounds"]
+__all__ = ["SLACK", "PendulumBounds", "Sketch", "sketch"]
 
 TURNED = 4.0
 """rad: beyond, the sine of half an angle has lost digits."""
@@ -137,6 +138,8 @@ PIECE_BITS = 38
 """Bits of the time from node to node, so that its multiples are doubles."""
 BITS = 160
 """Working bits of the constants, whose pairs of doubles have 106."""
+KEPT = 4
+"""Sketches of the problems that were asked for last."""
 FARTHEST = 2.0**40
 """Periods up to which times are reduced."""
 
@@ -152,6 +155,7 @@ class Sketched(NamedTuple):
     """The time over the period, less whole ones, to SLACK."""
 
 
+@lru_cache(maxsize=KEPT)
 def sketch(problem: Problem, *, rotates: bool) -> Sketch | None:
     """The sketch of a libration or rotation; None where its period is too long for one."""
     with ctx.workprec(BITS + problem.working_bits([])):
@@ -162,36 +166,43 @@ def sketch(problem: Problem, *, rotates: bool) -> Sketch | None:
 
 
 class Sketch:
-    """The motion by its states at ``pieces`` + 1 times, equally far from each other, over one period."""
+    """The motion by its states at ``pieces`` + 1 times, equally far from each other, over one period.
+
+    Attributes:
+        w: sqrt(g/length), ``period`` the period and ``frequency`` its inverse.
+        theta: the states at those times, and ``omega``.
+        piece: what lies between two of them, s.
+    """
 
     def __init__(self, problem: Problem, pieces: int, *, rotates: bool) -> None:
         form: Any = problem.closed_form(BALL)
         period = form.period
         self.w = float(form.w)
         self.frequency = float(1 / period)
+        self.period = float(period)
         self.square = float(form.modulus**2)
         self._advance = 2 * math.pi * form.direction if rotates else 0.0
         self._period, self._frequency = _pair(period), _pair(1 / period)
         mantissa, exponent = math.frexp(float(period / pieces))
-        self._piece = math.ldexp(round(math.ldexp(mantissa, PIECE_BITS)), exponent - PIECE_BITS)
-        times = [place * Fraction(self._piece) for place in range(pieces + 2)]
+        self.piece = math.ldexp(round(math.ldexp(mantissa, PIECE_BITS)), exponent - PIECE_BITS)
+        times = [place * Fraction(self.piece) for place in range(pieces + 2)]
         states = enclosure.balls(problem, "state", times, 64)
-        self._theta, self._omega = (np.array([float(state[i]) for state in states]) for i in (0, 1))
-        self._s, self._c = np.sin(self._theta / 2), np.cos(self._theta / 2)
+        self.theta, self.omega = (np.array([float(state[i]) for state in states]) for i in (0, 1))
+        self._s, self._c = np.sin(self.theta / 2), np.cos(self.theta / 2)
         self._size = min(1.0, math.sqrt(self.square))
         self._fastest = 2 * self.w * math.sqrt(self.square)
 
     def states(self, t: np.ndarray, late: float) -> Sketched:
         """The states at times that may be wrong by ``late`` of themselves; beyond the reach nothing is certain."""
-        periods, since, rest = self._reduced(t)
-        node = np.clip(np.rint(since / self._piece), 0, len(self._theta) - 1).astype(np.intp)
-        away = (since - node * self._piece) + rest
-        s, c, p = self._s[node], self._c[node], self._omega[node] / (2 * self.w)
+        periods, since, rest = self.reduced(t)
+        node = np.clip(np.rint(since / self.piece), 0, len(self.theta) - 1).astype(np.intp)
+        away = (since - node * self.piece) + rest
+        s, c, p = self._s[node], self._c[node], self.omega[node] / (2 * self.w)
         sn = self._sn(self.w * away)
         small = sn * sn
         sine, cosine, rate, scale = addition(s, c, p, sn, np.sqrt(1 - small), np.sqrt(1 - self.square * small))
         turned = np.arctan2(sine * c - cosine * s, cosine * c + sine * s)
-        theta = self._theta[node] + 2 * turned + periods * self._advance
+        theta = self.theta[node] + 2 * turned + periods * self._advance
         omega = 2 * self.w * rate / scale
         moved = np.where(np.abs(periods) < FARTHEST, np.abs(t) * late, np.nan) * self._fastest
         return Sketched(
@@ -202,7 +213,7 @@ class Sketch:
             (since + rest) * self._frequency[0],
         )
 
-    def _reduced(self, t: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    def reduced(self, t: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Whole periods, and what is left of t in a pair of doubles, within about [0, period]."""
         periods = np.floor(t * self._frequency[0])
         high, low = _product(periods, self._period[0])

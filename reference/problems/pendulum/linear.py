@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any, ClassVar
@@ -16,6 +17,7 @@ from reference.once import cached_property
 from reference.orbits import HarmonicOrbits
 from reference.problem import APART, SeparableProblem
 from reference.problems.pendulum.equations import ABOUT_REST, SWING, of_the_start
+from reference.problems.pendulum.input_condition import LinearCondition
 from reference.problems.pendulum.motions import Rest
 from reference.problems.pendulum.quantities import LINEAR_ROWS
 from reference.problems.pendulum.taylor import TAYLOR_RADIANS, a_radian
@@ -27,6 +29,7 @@ if TYPE_CHECKING:
     from reference.arithmetic.protocols import Arithmetic, EllipticArithmetic
     from reference.certified import Certified
     from reference.declaration import Invariant, Row, StateSpace, Trial
+    from reference.input_condition import InputCondition
     from reference.orbits import Orbits
     from reference.routes.taylor import Reading
 
@@ -108,6 +111,10 @@ class LinearPendulum(SeparableProblem):
     def inputs(self) -> dict[str, tuple[Any, str]]:
         return of_the_start(self.theta0, self.omega0)
 
+    def time_units(self) -> dict[str, float]:
+        """Its period, and sqrt(length/g), in which its equation is without numbers."""
+        return {**super().time_units(), "units of sqrt(length/g)": math.sqrt(self.length / self.g)}
+
     @staticmethod
     def velocity(m: Arithmetic, momenta: Sequence[Any], p: dict[str, Any]) -> tuple[Any, ...]:
         """theta' = omega."""
@@ -135,6 +142,9 @@ class LinearPendulum(SeparableProblem):
 
     def orbits(self) -> Orbits:
         return HarmonicOrbits(self.start, (BALL.number(self.g) / BALL.number(self.length)).sqrt())
+
+    def input_condition(self) -> InputCondition:
+        return LinearCondition(self)
 
     @property
     def lacks_of_orbits(self) -> str:

@@ -10,6 +10,7 @@ from reference.problem import APART
 from reference.problems.pendulum.approximations import LindstedtSolution, PeriodSeries, lindstedt, period_series
 from reference.problems.pendulum.equations import through_the_bottom
 from reference.problems.pendulum.events import Events, events
+from reference.problems.pendulum.input_condition import pendulum_condition
 from reference.problems.pendulum.orbits import Librations, Rotations, Small
 from reference.problems.pendulum.simple import SimplePendulum
 
@@ -17,6 +18,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
     from reference.arithmetic.protocols import Arithmetic
+    from reference.input_condition import InputCondition
     from reference.orbits import Orbits
     from reference.problems.pendulum.bounds import PendulumBounds
 
@@ -71,6 +73,9 @@ class Pendulum(SimplePendulum):
         if self.motion not in {"libration", "rotation"}:
             return None
         return PendulumBounds(self, rotates=self.motion == "rotation")
+
+    def input_condition(self) -> InputCondition:
+        return pendulum_condition(self)
 
     def passages(self, until: float) -> tuple[str, int] | None:
         """The passages through the bottom."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any, ClassVar
@@ -141,6 +142,10 @@ class SimplePendulum(SeparableProblem):
     @property
     def inputs(self) -> dict[str, tuple[Any, str]]:
         return of_the_start(self.theta0, self.omega0)
+
+    def time_units(self) -> dict[str, float]:
+        """Its period, and sqrt(length/g), in which its equation is without numbers."""
+        return {**super().time_units(), "units of sqrt(length/g)": math.sqrt(self.length / self.g)}
 
     @staticmethod
     def velocity(m: Arithmetic, momenta: Sequence[Any], p: dict[str, Any]) -> tuple[Any, ...]:
