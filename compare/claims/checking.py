@@ -52,8 +52,9 @@ CALLS_ON_ARRAYS = 40_000
 """The same on arrays, where all lanes share a call."""
 FRAME = 0.5, 0.7
 """Amplitude of the swinging frame in rad, or over the size of a motion, and its frequency over the motion's rate."""
-MARCH, TIMED_STEPS = 1 / 30, 16
-"""Part of the time for the marches of one scene, where a step is slow, and steps by which that is seen."""
+MARCH, DEFECTS, TIMED_STEPS = 1 / 30, 1 / 10, 16
+"""Parts of the time for the marches of one scene and for defects, where a step is slow, and steps by which that is
+seen."""
 MOST_STEPS = 4096
 LEAST_STEPS = 48
 LANES_OF_A_LADDER = 7
@@ -243,7 +244,7 @@ def _checked(candidate: Candidate, claims: Claims, scene: Scene, seconds: float)
         possible=name != "compiled" and still.kind != "own steps",
         iterates=iterating,
         bounded=energy.bounded,
-        states=STATES if cost * STEPS_OF_A_DEFECT <= seconds * MARCH else 1,
+        states=STATES if cost * STEPS_OF_A_DEFECT <= seconds * DEFECTS else 1,
     )
     headed = _heading(candidate, marcher, h)
     back = _back(marcher, counts, until) if claims.backward and headed.backward == "right" else None

@@ -81,7 +81,8 @@ def _advances(candidate: Candidate, scene: _Straight, h: float) -> np.ndarray:
         return np.ones(len(scene.straight))
     part = found[scene.straight]
     advance = np.where(np.isfinite(part), part / (steps * h), 1.0)
-    narrow = np.array_equal(found, found.astype(np.float32).astype(np.float64))
+    with np.errstate(over="ignore"):
+        narrow = np.array_equal(found, found.astype(np.float32).astype(np.float64))
     return np.where(np.abs(advance - 1) < NARROW_ROUNDING, 1.0, advance) if narrow else advance
 
 

@@ -27,9 +27,9 @@ if TYPE_CHECKING:
 __all__ = ["Answer", "ContainedError", "contained"]
 
 CODE = "import sys; sys.path[:] = {path!r}; from compare.claims.inside import serve; serve({handle}, {told!r})"
-GRACE = 2.0
+GRACE = 0.6
 """Seconds by which the process outlives the time of a check, which it may end by itself with a better sentence."""
-GENTLE = 0.5
+GENTLE = 0.3
 """Seconds between the request to end and the end."""
 PAUSE = 0.05
 SPOILT = "the step wrote into files of its process that it did not open"

@@ -27,7 +27,7 @@ LEAST = 1e-14
 """No accuracy beyond this can be told."""
 COUNT = 8
 """Crossings that are looked for, where there are so many; SPANS of time over which an order is measured, at most."""
-SPANS = 16
+SPANS = 8
 CALLS = 10_000_000
 ROLES = ("f", "event", "span", "y")
 PLACES = {"event": ("event", "events", "g", "condition")}

@@ -31,6 +31,8 @@ NEAR, FALLING = 1e-3, 0.5
 """It is f if it is so near to it, or if its distance with the shorter step is so much less than with the other."""
 MATCH = 0.05
 """Relative distance up to which a wrong slope is said to be a known one."""
+LEAST_FACTOR = 1.5
+"""A slope is said to be f times a number from this one on, or from its inverse down."""
 WORSE, MATTERS = 1e3, 1e-9
 """A step back is wrong if its error is so many times that of a step forward, and beyond the second."""
 
@@ -129,7 +131,9 @@ def _multiple(slopes: np.ndarray, rates: np.ndarray, factors: Sequence[float]) -
 def _factor(slopes: np.ndarray, rates: np.ndarray) -> float | None:
     """The one number, of no sign and magnitude that is told otherwise, whose product with the rates the slopes are."""
     factor = float(np.sum(slopes * rates) / np.sum(rates * rates))
-    if factor <= 0 or abs(factor - 1) <= MATCH:
+    if 1 / LEAST_FACTOR < factor < LEAST_FACTOR:
+        return None
+    if factor <= 0:
         return None
     return factor if np.max(np.abs(slopes / factor - rates)) <= MATCH * np.max(np.abs(rates)) else None
 

@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, Any, ClassVar
 from reference.arithmetic.exact import exact
 from reference.declaration import ClosedForm, Quantity, Row, StateSpace, Trial
 from reference.family import Comparison, Family, Input, Reported
-from reference.layout import Coordinate, Layout
 from reference.problem import Problem
 from reference.routes.taylor import Along
 from reference.row_domains import TIME
@@ -94,19 +93,6 @@ class Approach(ClosedForm):
         return (m.cos(t) if self.smooth else m.cos(t) + self.beside * m.exp(self.lam * t),)
 
 
-LAYOUT = Layout(
-    path="/prothero_robinson/smooth",
-    long_name="approach to a smooth solution",
-    instances=(Coordinate("lam", "1", "rate of the approach"),),
-    over={"time": Coordinate("time", "1", "time")},
-    parameters=(),
-    rows=(STATE,),
-    problem=ProtheroRobinson,
-    reference=SOURCE,
-    statement=EQUATION,
-    difficulty="average: stiff, and dependent on the time",
-)
-
 FAMILY = Family(
     name="prothero-robinson",
     help="Prothero and Robinson's stiff equation with a known solution",
@@ -126,5 +112,5 @@ FAMILY = Family(
         inputs=("y0",),
     ),
     reported=(Reported("prothero-robinson", "lam", "", "", (-10.0,), ProtheroRobinson),),
-    layouts=(LAYOUT,),
+    layouts=(),
 )

@@ -220,6 +220,13 @@ def crossings(*, h, twice=False, one_way=False, with_start=False):
     return find
 
 
+def signs_at_the_ends_of_steps(fun, event, t_span, y0):
+    """SciPy's way with its own tolerances: two crossings within a step are not seen (scipy issue 9228, CyRK's 98)."""
+    from scipy.integrate import solve_ivp
+
+    return solve_ivp(fun, t_span, y0, events=event)
+
+
 def derivatives(y0, parameters, t):
     """By differences of SciPy's solution, of everything that a pendulum depends on."""
     from scipy.integrate import solve_ivp

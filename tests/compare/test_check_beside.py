@@ -11,7 +11,7 @@ import pytest
 import compare
 from compare.__main__ import main
 from compare.claims.stiffness import stiff
-from reference import Pendulum
+from reference import Flow, Pendulum
 from reference.problems.families import find_family
 
 
@@ -123,6 +123,16 @@ def test_events_are_found_once_and_in_time(how, accuracy, standing, says):
     found = only(compare.check_events(people.crossings(**how), accuracy))
     assert (found.claim, found.standing) == ("events", standing)
     assert says in str(found)
+
+
+def test_two_events_within_a_step_are_missed_by_their_signs():
+    """The cubic of scipy's issue 9228, moved a little so that no crossing is at a rational time."""
+    cubic = Flow({"y": "3*(t - 8)**2 + 12*(t - 8) - 4"}, start={"y": "-120.1"}, event="y", name="cubic")
+    found = only(compare.check_events(people.signs_at_the_ends_of_steps, problem=cubic))
+    assert found.standing == "FAIL"
+    assert found.measured.startswith("1 of 3 found")
+    assert found.causes[0] == "missed at t = 5.994, 10"
+    assert found.causes[1].startswith("two within a step leave its ends with the same sign")
 
 
 @pytest.mark.parametrize(

@@ -29,7 +29,7 @@ from reference import (
 from reference.arithmetic.balls import BALL
 from reference.arithmetic.precision import ctx
 from reference.problems.cycloid.arc import CycloidCurve
-from reference.problems.families import FAMILIES
+from reference.problems.families import FAMILIES, find_family
 from reference.problems.polar.paths import PolarByPsi, PolarByZ
 from reference.routes.proven_flow import ProvenFlow
 
@@ -55,6 +55,7 @@ MOTIONS: tuple[tuple[Problem, tuple[Fraction, ...]], ...] = (
     (Cycloid(2, 1), SOON),
     (Tautochrone(1.0), SOON),
     (CycloidalPendulum(1.0), BOTH_SIDES),
+    (find_family("prothero-robinson").problem(-10, 2), SOON),
     (Descent("line"), SOON),
     (Descent("cycloid"), SOON),
     (Descent("quartic", released="1/4"), SOON),

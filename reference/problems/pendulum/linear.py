@@ -17,7 +17,6 @@ from reference.once import cached_property
 from reference.orbits import HarmonicOrbits
 from reference.problem import APART, SeparableProblem
 from reference.problems.pendulum.equations import ABOUT_REST, SWING, of_the_start
-from reference.problems.pendulum.input_condition import LinearCondition
 from reference.problems.pendulum.motions import Rest
 from reference.problems.pendulum.quantities import LINEAR_ROWS
 from reference.problems.pendulum.taylor import TAYLOR_RADIANS, a_radian
@@ -144,6 +143,8 @@ class LinearPendulum(SeparableProblem):
         return HarmonicOrbits(self.start, (BALL.number(self.g) / BALL.number(self.length)).sqrt())
 
     def input_condition(self) -> InputCondition:
+        from reference.problems.pendulum.input_condition import LinearCondition
+
         return LinearCondition(self)
 
     @property

@@ -10,7 +10,6 @@ from reference.problem import APART
 from reference.problems.pendulum.approximations import LindstedtSolution, PeriodSeries, lindstedt, period_series
 from reference.problems.pendulum.equations import through_the_bottom
 from reference.problems.pendulum.events import Events, events
-from reference.problems.pendulum.input_condition import pendulum_condition
 from reference.problems.pendulum.orbits import Librations, Rotations, Small
 from reference.problems.pendulum.simple import SimplePendulum
 
@@ -75,6 +74,8 @@ class Pendulum(SimplePendulum):
         return PendulumBounds(self, rotates=self.motion == "rotation")
 
     def input_condition(self) -> InputCondition:
+        from reference.problems.pendulum.input_condition import pendulum_condition
+
         return pendulum_condition(self)
 
     def passages(self, until: float) -> tuple[str, int] | None:
