@@ -14,7 +14,7 @@ PARALLEL := -n auto --dist loadfile
 SETS := lowest-direct highest
 FLAGS_lowest-direct := -W default::DeprecationWarning -W default::PendingDeprecationWarning
 
-.PHONY: help setup run data test bounds bench clean
+.PHONY: help setup run data test bounds interop bench clean
 
 help:
 	@echo "make run    print the pendulum's tables (sets everything up first)"
@@ -22,6 +22,7 @@ help:
 	@echo "make setup  create $(VENV) with the pinned dependencies"
 	@echo "make data   build the core dataset, if it is not there"
 	@echo "make bounds run all tests with the lowest and with the newest versions that pyproject.toml allows"
+	@echo "make interop install other packages and judge their methods, and run docs/interop.md"
 	@echo "make bench  run the benchmarks"
 	@echo "make clean  remove $(VENV), caches and builds; the dataset stays"
 	@echo "PYTHON=... chooses the interpreter (3.11 or newer), VENV=... the environment's folder."
@@ -66,11 +67,20 @@ define tested_with
 
 endef
 
+# The packages are there or this fails: none of its tests is skipped.  pytest collects these files where they are named.
+interop: .venv-interop/.installed $(DATASET)
+	.venv-interop/$(notdir $(BIN))/python -m pytest $(PARALLEL:loadfile=load) tests/interop/recipes.py tests/interop/third_party.py
+
+.venv-interop/.installed: pyproject.toml
+	"$(PYTHON)" -m venv .venv-interop
+	.venv-interop/$(notdir $(BIN))/python -m pip install --quiet --editable '.[interop]'
+	@touch $@
+
 bench: $(STAMP) $(DATASET)
 	@for script in tests/benchmarks/*.py; do echo "== $$script"; $(RUN) $$script || exit 1; done
 
 clean:
 	@if test -L "$(VENV)" || { test -e "$(VENV)" && ! test -f "$(STAMP)"; }; then \
 		echo "$(VENV) was not set up by make; it stays." >&2; else rm -rf "$(VENV)"; fi
-	rm -rf $(SETS:%=.venv-%) build dist .pytest_cache .ruff_cache .mypy_cache .hypothesis
+	rm -rf $(SETS:%=.venv-%) .venv-interop build dist .pytest_cache .ruff_cache .mypy_cache .hypothesis
 	find reference compare tests -name __pycache__ -type d -prune -exec rm -rf {} +

@@ -157,7 +157,11 @@ class Lanes:
 
 
 class Arrays:
-    """The step on arrays [state, lanes], with arrays of step sizes and of times."""
+    """The step on arrays [state, lanes], with arrays of step sizes and of times.
+
+    The last lane is repeated up to a power of two, from TRIALS on: one such as JAX, which compiles a step for each
+    shape, compiles it a few times.
+    """
 
     name: ClassVar[str] = "on arrays"
 
@@ -171,10 +175,12 @@ class Arrays:
             MisuseError: the step does not work on arrays.
         """
         self.field.calls = 0
-        found = real_numbers(self.candidate.step(self.field, y, h, t), self.candidate.name)
-        if found.shape != y.shape:
+        lanes = np.minimum(np.arange(_filled(len(h))), len(h) - 1)
+        wide = np.ascontiguousarray(y[:, lanes])
+        found = real_numbers(self.candidate.step(self.field, wide, h[lanes], t[lanes]), self.candidate.name)
+        if found.shape != wide.shape:
             raise MisuseError(f"{self.candidate.name} does not keep the shape of lanes.")
-        return found
+        return found[:, : len(h)]
 
 
 class Traced:
@@ -216,6 +222,11 @@ Engine = Lanes | Arrays | Traced
 def _called(function: Any, y: np.ndarray, h: np.ndarray, t: np.ndarray) -> np.ndarray:
     found: np.ndarray = function(np.ascontiguousarray(np.vstack([y, h, t])))
     return found
+
+
+def _filled(count: int) -> int:
+    """The number of lanes that takes so many."""
+    return max(TRIALS, 1 << (count - 1).bit_length())
 
 
 def trial_states(scene: Scene, h: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

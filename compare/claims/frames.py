@@ -280,6 +280,9 @@ class Scene:
         rates = list(self.problem.derivative(m, t, still, self._parameters))
         for place, shift in self._displacements(speed, acceleration):
             rates[place] = rates[place] + shift
+        if self.follows_rates:  # to the last bit: a method for second-order equations may ask
+            for position, rate in self.problem.space.pairs:
+                rates[position] = y[rate]
         return tuple(rates)
 
     def evaluated(self, t: Any, y: np.ndarray) -> np.ndarray:

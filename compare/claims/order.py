@@ -111,7 +111,7 @@ def measured(marcher: Marcher, t_end: float, counts: Sequence[int], until: float
     """
     if marcher.whole:
         first = _measured(marcher, t_end, counts[:FIRST_COUNTS])
-        if first.kind in {"flat", "floor"} and first.cells[-1].error <= RECOGNISABLE:
+        if first.kind in {"flat", "floor"} and first.cells[-1].error <= RECOGNISABLE and not _falls(first.cells):
             return replace(first, value=None, kind="own steps")
     found = _measured(marcher, t_end, counts)
     for factor in FURTHER:
@@ -119,6 +119,13 @@ def measured(marcher: Marcher, t_end: float, counts: Sequence[int], until: float
             break
         found = _pursued(marcher, t_end, found, factor * counts[-1])
     return found
+
+
+def _falls(cells: Sequence[Cell]) -> bool:
+    """Whether errors fall from the first to the last, though not at every step: even and odd numbers may differ."""
+    usable = [cell for cell in cells if 0 < cell.error < math.inf]
+    x, y = (np.log([getattr(cell, name) for cell in usable]) for name in ("n", "error"))
+    return len(usable) > FINEST and slope_with_interval(x, -y)[0] >= 1
 
 
 def _settled(found: Order) -> bool:

@@ -59,6 +59,27 @@ class Advancing:
         self.state = self.state + self.dt * self.rhs(self.state + self.dt / 2 * self.rhs(self.state))
 
 
+class Leapfrog:
+    """Two steps at once, from the state before: even and odd numbers of steps err differently."""
+
+    def __init__(self, f, t0, y0, h):
+        self.f, self.t, self.y, self.h, self.before = f, t0, y0, h, None
+
+    def step(self):
+        slope = self.f(self.t, self.y)
+        end = self.y + self.h * slope if self.before is None else self.before + 2 * self.h * slope
+        self.before, self.y = self.y, end
+        self.t += self.h
+
+
+def for_second_order_alone(f, t, y, h):
+    """Of Nystrom's kind, which asks whether its equation is of second order."""
+    a = f(t, y)
+    if a[0] != y[1]:
+        raise AssertionError("this is no equation of second order")
+    return timed(f, t, y, h)
+
+
 def states_one_after_another(f, y0, h):
     y = y0
     while True:
@@ -151,6 +172,16 @@ def euler_with_twice_its_error(f, y, h):
     return y + h * k, h * (f(y + h * k) - k)
 
 
+def estimate_between_orders(f, y, h):
+    end, error = bogacki_shampine(f, y, h)
+    return end, np.abs(h) ** 3.7 * np.sign(h) * f(y) + 0 * error
+
+
+def not_with_long_steps(f, y, h):
+    end, error = bogacki_shampine(f, y, h)
+    return (end, error) if h < 0.3 else (np.nan * end, error)
+
+
 def no_estimate(f, y, h):
     return rk4(f, y, h), 0 * y
 
@@ -159,6 +190,10 @@ def adaptive(fun, t_span, y0, t_eval=None, rtol=1e-3, atol=1e-6):
     from scipy.integrate import solve_ivp
 
     return solve_ivp(fun, t_span, y0, t_eval=t_eval, rtol=rtol, atol=atol)
+
+
+def adaptive_to_the_end(fun, t_span, y0, rtol=1e-3):
+    return adaptive(fun, t_span, y0, rtol=rtol, atol=rtol)
 
 
 def deaf_to_rtol(fun, t_span, y0, t_eval=None, rtol=1e-3):

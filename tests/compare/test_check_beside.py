@@ -46,6 +46,8 @@ def test_dense_output_is_of_the_order_of_its_local_error(interpolant, order, sta
         (people.euler_with_heun, 1, "PASS", "measured 1.0"),
         (people.euler_with_twice_its_error, 1, "FAIL", "its error is 0.5 times the estimate"),
         (people.no_estimate, 3, "FAIL", "it is zero"),
+        (people.estimate_between_orders, 2, "NOT ESTABLISHED", "of a method of that order with these steps"),
+        (people.not_with_long_steps, 2, "PASS", "measured 2.0"),
     ],
 )
 def test_an_error_estimate_is_that_of_an_embedded_method(step, order, standing, says):
@@ -58,6 +60,7 @@ def test_an_error_estimate_is_that_of_an_embedded_method(step, order, standing, 
     ("solver", "power", "standing", "says"),
     [
         (people.adaptive, 1, "PASS", "measured rtol^(1.0"),
+        (people.adaptive_to_the_end, 1, "PASS", "measured rtol^(1."),
         (people.deaf_to_rtol, 1, "FAIL", "it is not used"),
         (people.by_the_root_of_rtol, 1, "FAIL", "measured rtol^(0.5"),
         (people.by_the_root_of_rtol, 0.5, "PASS", "an error that goes with rtol^0.5"),

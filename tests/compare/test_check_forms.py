@@ -6,7 +6,9 @@ import json
 import shutil
 import subprocess
 import sys
+from dataclasses import replace
 
+import numpy as np
 import people
 import pytest
 
@@ -24,6 +26,8 @@ from reference.problems.families import find_family
         (people.with_its_own_equation, "own", {"order": 4, "problem": Pendulum(1)}),
         (people.Stepper, "class", {"order": 4}),
         (people.Advancing, "class", {"order": 2}),
+        (people.Leapfrog, "class", {"order": 2}),
+        (people.for_second_order_alone, "timed", {"order": 4}),
         (people.states_one_after_another, "generator", {"order": 4}),
         (people.times_and_states, "generator", {"order": 4}),
         (people.over_a_span, "solver", {"order": 4}),
@@ -49,6 +53,22 @@ def test_an_equation_of_its_own_is_that_of_the_problem():
     assert compare.check(people.with_its_own_equation, order=4, problem=Pendulum(1, length=2)).claims_hold is False
 
 
+def test_a_step_on_arrays_sees_few_numbers_of_lanes():
+    """JAX compiles a step for each."""
+    seen = set()
+
+    def midpoint(f, y, h):
+        seen.add(np.shape(np.asarray(y, dtype=float)))
+        return y + h * f(y + h / 2 * f(y))
+
+    found = compare.check(midpoint, order=2)
+    assert (found.engine, found.claims_hold) == ("on arrays", True)
+    assert seen == {(2,), (2, 8), (2, 16), (2, 32), (2, 64), (2, 256)}
+    slopes = replace(found.still, value=2.2, half_width=0.35)
+    assert replace(found, still=slopes).order_standing == "holds", "as high as is claimed from end to end"
+    assert replace(found, still=replace(slopes, half_width=0.45)).order_standing == "open"
+
+
 class NoStep:
     def __init__(self, f, y0, h):
         pass
@@ -68,8 +88,6 @@ def three_states(f, y0, h):
 
 
 def own_times(fun, t_span, y0, h):
-    import numpy as np
-
     del fun, h
     return np.linspace(*t_span, 7), np.tile(y0, (7, 1))
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import io
 import itertools
 import math
 import re
@@ -17,7 +18,7 @@ from matplotlib.text import Text
 
 from compare import study as studies
 from compare.show import plot
-from compare.show.plot_style import inks, saved, spread, style
+from compare.show.plot_style import fit, inks, saved, spread, style
 
 CASE = made_case(1.0)
 FEW = ("euler", "verlet", "suzuki4")
@@ -167,7 +168,8 @@ def test_every_text_lies_within_its_figure_and_the_n_is_one_that_was_asked_for(d
     for count in (1, 2, 3):
         with style():
             for name, figure in plot.figures(with_methods(drawn_study, count)):
-                saved(figure)
+                fit(figure)
+                figure.savefig(io.BytesIO(), format="svg", dpi=160)
                 texts = [text for text in shown(figure) if text.get_text()]
                 assert len(texts) >= 3
                 assert [text.get_text() for text in texts if leaves(text, figure)] == [], (name, count)

@@ -27,7 +27,8 @@ PRINTED = {
 
 
 def test_every_snippet_has_a_table_and_every_table_a_snippet():
-    assert {path.name for path in SNIPPETS.iterdir()} == set(PRINTED) | set(PRINTED.values())
+    steps = {*SNIPPETS.glob("step.*"), SNIPPETS / "rk4.c"}  # of docs/interop.md
+    assert {path.name for path in {*SNIPPETS.iterdir()} - steps} == set(PRINTED) | set(PRINTED.values())
 
 
 @pytest.mark.parametrize("source", PRINTED)
