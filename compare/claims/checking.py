@@ -15,7 +15,7 @@ from compare.claims import local, stiffness, tolerances
 from compare.claims.candidate import Candidate
 from compare.claims.coefficients import slip
 from compare.claims.consistency import advance_of_a_constant_slope, iterates, uses
-from compare.claims.defects import STATES, STEPS_OF_A_DEFECT, Evidence, reversibility, symplecticity
+from compare.claims.defects import Evidence, reversibility, symplecticity
 from compare.claims.energy import kept
 from compare.claims.engine import Lanes, Steps, Traced, Whole, chosen
 from compare.claims.findings import Claims
@@ -52,9 +52,8 @@ CALLS_ON_ARRAYS = 40_000
 """The same on arrays, where all lanes share a call."""
 FRAME = 0.5, 0.7
 """Amplitude of the swinging frame in rad, or over the size of a motion, and its frequency over the motion's rate."""
-MARCH, DEFECTS, TIMED_STEPS = 1 / 30, 1 / 10, 16
-"""Parts of the time for the marches of one scene and for defects, where a step is slow, and steps by which that is
-seen."""
+MARCH, TIMED_STEPS = 1 / 30, 16
+"""Part of the time for the marches of one scene, where a step is slow, and steps by which that is seen."""
 MOST_STEPS = 4096
 LEAST_STEPS = 48
 LANES_OF_A_LADDER = 7
@@ -244,7 +243,6 @@ def _checked(candidate: Candidate, claims: Claims, scene: Scene, seconds: float)
         possible=name != "compiled" and still.kind != "own steps",
         iterates=iterating,
         bounded=energy.bounded,
-        states=STATES if cost * STEPS_OF_A_DEFECT <= seconds * DEFECTS else 1,
     )
     headed = _heading(candidate, marcher, h)
     back = _back(marcher, counts, until) if claims.backward and headed.backward == "right" else None

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 
     from compare.claims.engine import Marcher
 
-__all__ = ["STATES", "STEPS_OF_A_DEFECT", "Defect", "Evidence", "reversibility", "symplecticity"]
+__all__ = ["Defect", "Evidence", "reversibility", "symplecticity"]
 
 ROUNDING = 1e-11
 """A defect up to this is rounding."""
@@ -39,8 +39,6 @@ along the stencil; a defect of the method that is so small is of a high power of
 STATES = 4
 """States at which a defect is measured."""
 STEPS_BACK = 32
-STEPS_OF_A_DEFECT = 1000
-"""Single steps that defects at STATES take, about."""
 NUDGE, CARRIED = 2.0**-30, 16
 """The turned state is moved by the first part of itself, one component at a time, to see how far the way back carries a
 rounding; so many of those are taken for rounding where that is far, as on an unstable motion."""
@@ -77,13 +75,11 @@ class Evidence:
         possible: whether it may: not where it is compiled, or chooses its own steps.
         iterates: whether the calls of f that it makes differ from state to state or from step to step.
         bounded: whether the energy stays bounded.
-        states: at so many a defect is measured: fewer where a step is slow.
     """
 
     possible: bool
     iterates: bool
     bounded: bool
-    states: int = STATES
 
 
 def _judged(sizes: Sequence[float], signed: np.ndarray, h: float, evidence: Evidence) -> Defect:
@@ -100,10 +96,10 @@ def _judged(sizes: Sequence[float], signed: np.ndarray, h: float, evidence: Evid
     return Defect(sizes[1], h, none=False) if sizes[1] > ROUNDING else Defect(sizes[-1], FACTORS[-1] * h, none=False)
 
 
-def _trials(marcher: Marcher, h: float, count: int) -> tuple[np.ndarray, np.ndarray]:
+def _trials(marcher: Marcher, h: float) -> tuple[np.ndarray, np.ndarray]:
     """The same states with each step: [state, lanes] and [lanes]."""
-    states = trial_states(marcher.scene, h)[0][:, :count]
-    return np.tile(states, len(FACTORS)), np.repeat([factor * h for factor in FACTORS], count)
+    states = trial_states(marcher.scene, h)[0][:, :STATES]
+    return np.tile(states, len(FACTORS)), np.repeat([factor * h for factor in FACTORS], STATES)
 
 
 def _hold_finite(defects: np.ndarray, h: np.ndarray) -> None:
@@ -131,7 +127,7 @@ def symplecticity(marcher: Marcher, h: float, evidence: Evidence) -> Defect:
     problem = marcher.scene.problem
     if not problem.has_momenta:
         return Defect(math.nan, h, none=False, lacks=f"{problem!r} declares no momenta, nor an energy that tells them")
-    y, sizes = _trials(marcher, h, evidence.states)
+    y, sizes = _trials(marcher, h)
     if isinstance(marcher, Steps) and isinstance(marcher.engine, Traced):
         jacobians = marcher.engine.jacobian(y, sizes)
     else:
@@ -179,7 +175,7 @@ def reversibility(marcher: Marcher, h: float, evidence: Evidence) -> Defect:
     space = scene.problem.space
     if space.odd is None:
         return Defect(math.nan, h, none=False, lacks=f"{scene.problem!r} declares no way back in time")
-    start, sizes = _trials(marcher, h, evidence.states)
+    start, sizes = _trials(marcher, h)
     flip = np.ones((len(start), 1))
     flip[space.places(space.odd)] = -1
     steps = int(min(STEPS_BACK, scene.end / (2 * FACTORS[-1] * h)))
