@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from compare.claims.frames import Field, MisuseError
+from compare.claims.frames import Field, MisuseError, is_traced
 from compare.claims.jitted import is_jitted, jitted
 from reference.names import printable
 
@@ -173,18 +173,21 @@ def _attribute(found: Any, names: str, count: int) -> Any:
     return next((value for value in values if axes(value) == count), None)
 
 
+@dataclass(frozen=True)
 class _Forces:
-    """force(q): the rates of the momenta, of the shape of q."""
+    """force(q): the rates of the momenta, of the shape of q; equal where the field is, as JAX asks."""
 
-    def __init__(self, field: Field) -> None:
-        self._field = field
+    field: Field
 
     def __call__(self, q: Any) -> Any:
-        positions = self._field.scene.problem.positions
-        q = np.asarray(q)
-        zeros = np.zeros((self._field.scene.dimension - positions, *q.shape[1:]))
-        state = np.concatenate([q.reshape(positions, *q.shape[1:]), zeros.astype(q.dtype)])
-        return self._field(state)[positions:]
+        numbers: Any = np
+        if is_traced(q):
+            import jax.numpy as numbers
+        positions = self.field.scene.problem.positions
+        q = numbers.asarray(q)
+        zeros = numbers.zeros((self.field.scene.dimension - positions, *q.shape[1:]))
+        state = numbers.concatenate([q.reshape(positions, *q.shape[1:]), zeros.astype(q.dtype)])
+        return self.field(state)[positions:]
 
 
 class _Gradients(_Forces):

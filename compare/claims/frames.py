@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     from reference.declaration import Invariant
     from reference.problem import Problem
 
-__all__ = ["Exhausted", "Field", "Frame", "MisuseError", "Scene", "nonzero"]
+__all__ = ["Exhausted", "Field", "Frame", "MisuseError", "Scene", "is_traced", "nonzero"]
 
 SYMBOLS = Heyoka()
 LONG = 2000
@@ -55,6 +55,11 @@ class MisuseError(ValueError):
 
 class Exhausted(BaseException):
     """A user's function asked for more than it may: no ``except Exception`` of its own keeps it."""
+
+
+def is_traced(value: Any) -> bool:
+    """Whether it is one of JAX's arrays, or of their tracers."""
+    return type(value).__module__.partition(".")[0] in {"jax", "jaxlib"}
 
 
 class Field:
@@ -82,7 +87,7 @@ class Field:
         self.calls += 1
         if self.calls > self.limit:
             raise Exhausted(f"called f more than {self.limit} times")
-        if any(type(one).__module__.partition(".")[0] in {"jax", "jaxlib"} for one in arguments):
+        if any(map(is_traced, arguments)):
             return self._traced_by_jax(arguments)
         t, y = self.time_and_state(arguments)
         if len(y) != self.scene.dimension:
