@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from compare.claims.frames import Field, MisuseError
+from compare.claims.frames import Field, MisuseError, is_traced
 from compare.methods.own.adapters import hold_times, solution_of
 from compare.methods.own.hosting import MAX_CALLS, kind_of, real_numbers, told
 from compare.methods.own.jitted import is_jitted, jitted
@@ -122,18 +123,19 @@ class Candidate:
         return np.concatenate([part.reshape(-1, *y.shape[1:]) for part in parts])
 
 
+@dataclass(frozen=True)
 class _Forces:
-    """force(q): the rates of the momenta, of the shape of q."""
+    """force(q): the rates of the momenta, of the shape of q; equal where the field is, as JAX asks."""
 
-    def __init__(self, field: Field) -> None:
-        self._field = field
+    field: Field
 
     def __call__(self, q: Any) -> Any:
-        positions = self._field.scene.problem.positions
-        q = np.asarray(q)
-        zeros = np.zeros((self._field.scene.dimension - positions, *q.shape[1:]))
-        state = np.concatenate([q.reshape(positions, *q.shape[1:]), zeros.astype(q.dtype)])
-        return self._field(state)[positions:]
+        numbers: Any = import_module("jax.numpy") if is_traced(q) else np
+        positions = self.field.scene.problem.positions
+        q = numbers.asarray(q)
+        zeros = numbers.zeros((self.field.scene.dimension - positions, *q.shape[1:]))
+        state = numbers.concatenate([q.reshape(positions, *q.shape[1:]), zeros.astype(q.dtype)])
+        return self.field(state)[positions:]
 
 
 class _Gradients(_Forces):

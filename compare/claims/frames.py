@@ -31,7 +31,7 @@ if TYPE_CHECKING:
     from reference.declaration import Invariant
     from reference.problem import Problem
 
-__all__ = ["Exhausted", "Field", "Frame", "MisuseError", "Scene", "nonzero"]
+__all__ = ["Exhausted", "Field", "Frame", "MisuseError", "Scene", "is_traced", "nonzero"]
 
 SYMBOLS = Heyoka()
 LONG = 2000
@@ -48,6 +48,11 @@ AGREEMENT = 1e-12
 def nonzero(sizes: np.ndarray) -> np.ndarray:
     """Sizes to divide by: 1 for what is always zero."""
     return np.where(sizes > 0, sizes, 1.0)
+
+
+def is_traced(value: Any) -> bool:
+    """Whether it is one of JAX's arrays, or of their tracers."""
+    return type(value).__module__.partition(".")[0] in {"jax", "jaxlib"}
 
 
 class Field:
@@ -76,7 +81,7 @@ class Field:
         self.calls += 1
         if self.calls > self.limit:
             raise Exhausted(f"called f more than {self.limit} times")
-        if arguments and type(arguments[-1]) is not np.ndarray and any(map(_is_of_jax, arguments)):
+        if arguments and type(arguments[-1]) is not np.ndarray and any(map(is_traced, arguments)):
             return self._traced_by_jax(arguments)
         t, y = self.time_and_state(arguments)
         if len(y) != self._dimension:
@@ -116,10 +121,6 @@ class Field:
         self.timed = True
         t, y = (first, second) if first.ndim < second.ndim else (second, first)
         return t[()], y
-
-
-def _is_of_jax(value: Any) -> bool:
-    return type(value).__module__.partition(".")[0] in {"jax", "jaxlib"}
 
 
 BINARY32 = Fraction(1, 1 << 24)

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 LOOSE = 1e12
 """A tolerance that accepts every step."""
 TIGHT, NEWTON_TOLERANCE = 1e-13, 1e-11
-"""Tolerances of inner iterations; desolver's do not always end with the first."""
+"""Tolerances of inner iterations; those of desolver and diffrax do not always end with the first."""
 
 
 def explicit(a: np.ndarray, b: np.ndarray, c: np.ndarray, error: np.ndarray | None = None) -> Callable[..., Any]:
@@ -88,15 +88,21 @@ def solver_class(path: str) -> dict[str, Any]:
 
     def step(f: Any, t: Any, y: Any, h: Any) -> Any:
         solver = stepped(f, t, y, h)
-        slopes = getattr(solver, "K", None)
-        if slopes is None or not hasattr(made, "E"):
+        if not isinstance(made.E, np.ndarray):
             return solver.y
-        return solver.y, h * slopes[: len(made.E)].T @ made.E
+        return solver.y, h * solver.K[: len(made.E)].T @ made.E
 
     def between(f: Any, t: Any, y: Any, h: Any, theta: Any) -> Any:
         return stepped(f, t, y, h).dense_output()(theta * h)
 
     return {"step": step, "interpolant": between}
+
+
+def class_table(path: str) -> dict[str, Any]:
+    """The table of an implicit class, whose own inner iterations end with the tolerance of its steps."""
+    module, _, name = path.rpartition(".")
+    made = getattr(importlib.import_module(module), name)
+    return {"step": implicit(np.array(made.A), np.array(made.B), np.array(made.C))}
 
 
 def solver_as_it_is(path: str) -> dict[str, Any]:
@@ -177,7 +183,8 @@ def diffrax(name: str) -> dict[str, Any]:
     jax.config.update("jax_enable_x64", True)
     kind = getattr(diffrax, name)
     is_implicit = issubclass(kind, diffrax.AbstractImplicitSolver)
-    solver = kind(root_finder=diffrax.VeryChord(rtol=TIGHT, atol=TIGHT)) if is_implicit else kind()
+    finder = {"root_finder": diffrax.VeryChord(rtol=NEWTON_TOLERANCE, atol=NEWTON_TOLERANCE), "root_find_max_steps": 50}
+    solver = kind(**finder if is_implicit else {})
 
     def stepped(f: Any, t: Any, y: Any, h: Any) -> Any:
         t, h = (jax.numpy.asarray(one, jax.numpy.float64) for one in (t, h))
@@ -444,7 +451,7 @@ def jax_odeint(_: str) -> dict[str, Any]:
 
     jax.config.update("jax_enable_x64", True)
 
-    @partial(jax.jit, static_argnums=0)
+    @partial(jax.jit, static_argnames=("f", "rtol"))
     def integrate(f: Any, y0: Any, t: Any, rtol: Any) -> Any:
         return odeint(lambda y, t: f(t, y), y0, t, rtol=rtol, atol=rtol)
 

@@ -141,7 +141,6 @@ DESOLVER = of(
     RadauIA5  order=5
     RadauIIA3  order=3
     RadauIIA5  order=5
-    RadauIIA19  order=19
     """,
 )
 
@@ -182,16 +181,16 @@ DIFFRAX = (
         Midpoint  order=2 estimate=1
         Ralston  order=2 estimate=1
         Bosh3  order=3 estimate=2 dense=3
-        Dopri5  order=5 estimate=4 dense=4
-        Tsit5  order=5 estimate=4 dense=4
-        Dopri8  order=8 estimate=7 dense=7
+        Dopri5  order=5 estimate=4 dense=5
+        Tsit5  order=5 estimate=4 dense=5
+        Dopri8  order=8 estimate=7 dense=8
         ImplicitEuler  order=1
-        Kvaerno3  order=3 estimate=2
-        Kvaerno4  order=4 estimate=3
-        Kvaerno5  order=5 estimate=4
-        KenCarp3  order=3 estimate=2
-        KenCarp4  order=4 estimate=3
-        KenCarp5  order=5 estimate=4
+        Kvaerno3  order=3
+        Kvaerno4  order=4
+        Kvaerno5  order=5
+        KenCarp3  order=3
+        KenCarp4  order=4
+        KenCarp5  order=5
         Sil3  order=2
         """,
     ),
@@ -299,6 +298,12 @@ EXTENSISQ = (
         extensisq.Pr8  order=8 estimate=6 dense=6
         extensisq.Pr9  order=9 estimate=7 dense=7
         extensisq.CFMR7osc  order=7 estimate=5 dense=5
+        """,
+    ),
+    *of(
+        "extensisq",
+        "class_table",
+        """
         extensisq.TRBDF2  order=2
         extensisq.TRX2  order=2
         extensisq.Kv3I  order=3
