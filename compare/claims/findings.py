@@ -233,6 +233,7 @@ class Findings:
     @property
     def established(self) -> bool:
         """Whether the interval of the order is narrow enough to say one, or as high as is claimed from end to end."""
-        claim, order = self.claims.order, self.order
-        high = order.kind == "slope" and claim is not None and order.interval is not None
-        return order.half_width <= WIDEST or (high and order.interval[0] >= claim - ORDER_MARGIN)
+        claim, order, interval = self.claims.order, self.order, self.order.interval
+        if order.kind == "slope" and claim is not None and interval is not None and interval[0] >= claim - ORDER_MARGIN:
+            return True
+        return order.half_width <= WIDEST

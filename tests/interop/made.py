@@ -180,7 +180,7 @@ def diffrax(name: str) -> dict[str, Any]:
     import diffrax
     import jax
 
-    jax.config.update("jax_enable_x64", True)  # noqa: FBT003
+    jax.config.update("jax_enable_x64", True)
     kind = getattr(diffrax, name)
     is_implicit = issubclass(kind, diffrax.AbstractImplicitSolver)
     finder = {"root_finder": diffrax.VeryChord(rtol=NEWTON_TOLERANCE, atol=NEWTON_TOLERANCE), "root_find_max_steps": 50}
@@ -213,7 +213,7 @@ def diffrax_pair(name: str) -> dict[str, Any]:
     import diffrax
     import jax
 
-    jax.config.update("jax_enable_x64", True)  # noqa: FBT003
+    jax.config.update("jax_enable_x64", True)
     solver = getattr(diffrax, name)()
 
     @partial(jax.jit, static_argnums=2)
@@ -229,7 +229,7 @@ def diffrax_with_memory(name: str) -> dict[str, Any]:
     import diffrax
     import jax
 
-    jax.config.update("jax_enable_x64", True)  # noqa: FBT003
+    jax.config.update("jax_enable_x64", True)
     solver = getattr(diffrax, name)()
 
     @partial(jax.jit, static_argnums=0)
@@ -259,7 +259,7 @@ def diffrax_adaptive(name: str) -> dict[str, Any]:
     import diffrax
     import jax
 
-    jax.config.update("jax_enable_x64", True)  # noqa: FBT003
+    jax.config.update("jax_enable_x64", True)
     kind = getattr(diffrax, name.partition(",")[0])
 
     @partial(jax.jit, static_argnames="fun")
@@ -432,7 +432,7 @@ def jax(name: str) -> dict[str, Any]:
 
     from reference import Pendulum
 
-    jax.config.update("jax_enable_x64", True)  # noqa: FBT003
+    jax.config.update("jax_enable_x64", True)
     if name.startswith("rk4"):
         return {"step": jax.jit(people.rk4, static_argnums=0)}
 
@@ -449,7 +449,7 @@ def jax_odeint(_: str) -> dict[str, Any]:
     import jax
     from jax.experimental.ode import odeint
 
-    jax.config.update("jax_enable_x64", True)  # noqa: FBT003
+    jax.config.update("jax_enable_x64", True)
 
     @partial(jax.jit, static_argnames=("f", "rtol"))
     def integrate(f: Any, y0: Any, t: Any, rtol: Any) -> Any:
