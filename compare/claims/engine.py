@@ -159,8 +159,7 @@ class Lanes:
 class Arrays:
     """The step on arrays [state, lanes], with arrays of step sizes and of times.
 
-    The last lane is repeated up to a power of two, from TRIALS on: one such as JAX, which compiles a step for each
-    shape, compiles it a few times.
+    The last lane is repeated up to a power of two, from TRIALS on: JAX compiles a step for each shape, so a few times.
     """
 
     name: ClassVar[str] = "on arrays"

@@ -234,6 +234,6 @@ class Findings:
     def established(self) -> bool:
         """Whether the interval of the order is narrow enough to say one, or as high as is claimed from end to end."""
         claim, order, interval = self.claims.order, self.order, self.order.interval
-        if order.half_width <= WIDEST or claim is None or interval is None:
-            return order.half_width <= WIDEST
-        return order.kind == "slope" and interval[0] >= claim - ORDER_MARGIN
+        if order.kind == "slope" and claim is not None and interval is not None and interval[0] >= claim - ORDER_MARGIN:
+            return True
+        return order.half_width <= WIDEST

@@ -39,7 +39,8 @@ COUNTS = (1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64, 96, 128, 192, 256)
 """Parts of it that are tried."""
 EPSILON = 2.0**-52
 ROUNDED, FALLS = 1e-11, 0.8
-"""Errors below the first that a shorter step leaves larger than the second of them are rounding, as are the rest."""
+"""From an error below the first with a slope below so much of the steepest before, all is rounding: of coefficients,
+or of states."""
 PLACES = (0.21, 0.47, 0.83)
 """Parts of a step at which it is tried: no zeros of usual error polynomials."""
 PLACE = "theta s sigma part fraction place c"
@@ -207,11 +208,11 @@ def _local_order(error: Callable[[float], float], span: float) -> Order:
             if cells or n >= LONGEST:
                 raise
             continue
-        if cells and ROUNDED > size > FALLS * cells[-1].error:
-            break
         slope = None
         if cells and size > 0 and cells[-1].error > 0:
             slope = math.log(cells[-1].error / size) / math.log(n / cells[-1].n)
+            if size < ROUNDED and slope < FALLS * max(cell.slope or 0.0 for cell in cells):
+                break
         cells.append(Cell(n, h, size, EPSILON, slope))
     return fitted(cells)
 

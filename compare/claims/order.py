@@ -122,7 +122,7 @@ def measured(marcher: Marcher, t_end: float, counts: Sequence[int], until: float
 
 
 def _falls(cells: Sequence[Cell]) -> bool:
-    """Whether errors fall from the first to the last, though not at every step: even and odd numbers may differ."""
+    """Whether errors fall from the first to the last, though not at each: those of even and odd numbers may differ."""
     usable = [cell for cell in cells if 0 < cell.error < math.inf]
     x, y = (np.log([getattr(cell, name) for cell in usable]) for name in ("n", "error"))
     return len(usable) > FINEST and slope_with_interval(x, -y)[0] >= 1

@@ -350,5 +350,62 @@ METHODS = (
     *NODEPY, *DESOLVER, *PYHAMSYS, *DIFFRAX, *TORCHDIFFEQ, *GALA, *REBOUND, *SCIPY, *EXTENSISQ, *NUMBA, *JAX,
 )  # fmt: skip
 
-EXPLAINED: dict[tuple[str, str, str], str] = {}
+ROUNDING = (
+    "the errors reach rounding before the slopes have settled; a step of plain arithmetic would have its power series"
+)
+LATE_TIMES = (
+    "its __call__ gives every step the time of its end, times[ii], so that a force in time is taken a step too late; "
+    "of a force without the time it is of its order"
+)
+EXPLAINED: dict[tuple[str, str, str], str] = {
+    ("nodepy", "Lambert65", "order"): (
+        "its third row is (1/8, 1/8), which fails the trees of order 3; with (3/16, 1/16), as Lawson has it, "
+        "those up to order 5 hold"
+    ),
+    ("nodepy", "SS3", "order"): (
+        "its weights b fail the trees of order 3, and those of its embedded method hold: the two are exchanged"
+    ),
+    ("nodepy", "SSP53", "order"): (
+        "its weights add up to 1 + 3.2e-10: its coefficients have nine digits, and errors end at 2e-9"
+    ),
+    ("desolver", "ABAs5o6HSolver", "order"): (
+        "its source, arXiv:1501.04345, is named Efficient Fourth Order Symplectic Integrators: 6 is an order for "
+        "near-harmonic systems alone"
+    ),
+    ("desolver", "BABs9o7HSolver", "order"): "as ABAs5o6HSolver, of the same source",
+    ("desolver", "RK8713MSolver", "order"): (
+        "it carries on the first of its rows of weights, which fails the trees of order 8; its second is of order 8"
+    ),
+    ("desolver", "RK108Solver", "order"): ROUNDING,
+    ("desolver", "RK108Solver", "estimate"): (
+        "the trees of order 9 are missed by 6e-6 alone, so that the next term hides that one until rounding"
+    ),
+    ("desolver", "RK1412Solver", "order"): ROUNDING,
+    ("desolver", "RK1412Solver", "estimate"): ROUNDING,
+    ("desolver", "RadauIIA3", "order"): (
+        "its second row is (3/4, 1/3), which does not add up to its node 1; (3/4, 1/4) does, and is Radau's"
+    ),
+    ("gala", "Ruth4Integrator", "order"): LATE_TIMES,
+    ("gala", "RK5Integrator", "order"): LATE_TIMES,
+    ("torchdiffeq", "explicit_adams max_order=4", "order"): (
+        "its history has max_order - 1 slopes, so that the explicit formula has three steps and order 3"
+    ),
+    ("torchdiffeq", "dopri8, adaptive", "tolerance"): (
+        "between its steps it has a polynomial of degree four, whose error is that of the states at the times asked for"
+    ),
+    ("rebound", "ias15, adaptive", "tolerance"): "its errors are rounding with every epsilon",
+    ("scipy", "scipy.integrate.DOP853", "order"): ROUNDING,
+    ("extensisq", "extensisq.Pr8", "order"): ROUNDING,
+    ("extensisq", "extensisq.Pr9", "order"): ROUNDING,
+    ("extensisq", "extensisq.Fi5N", "order"): "slopes from 5.0 to 5.4, which have not settled where rounding begins",
+    ("diffrax", "Dopri8", "order"): ROUNDING,
+    ("diffrax", "KenCarp5", "order"): ROUNDING,
+    ("diffrax", "Dopri5", "dense"): (
+        "in a step its error goes with h^5, which the documentation counts as order 5; Bosh3's with h^4, as order 3"
+    ),
+    ("diffrax", "Tsit5", "dense"): "as Dopri5",
+    ("diffrax", "Dopri8", "dense"): (
+        "its documentation says order 8, and in a step its error goes with h^6, on y' = y cos t too"
+    ),
+}
 """Package, method and claim of what is no PASS, and why that is so."""

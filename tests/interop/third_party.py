@@ -25,7 +25,9 @@ def test_a_method_is_what_its_package_says(method: Method, record_property: pyte
     found = compare.check(**given, **method.claims, seconds=SECONDS)
     for verdict in found.verdicts:
         measured = "; ".join([verdict.measured, *verdict.causes])
-        record_property("row", [package, method.name, verdict.words, verdict.standing, measured])
+        value = method.claims[verdict.claim]
+        claim = verdict.claim if value is True else f"{verdict.claim} {value:g}"
+        record_property("row", [package, method.name, claim, verdict.standing, measured])
     missed = {verdict.claim for verdict in found.verdicts if verdict.standing != "PASS"}
     explained = {claim for package, name, claim in EXPLAINED if (package, name) == (method.package, method.name)}
     assert missed == explained, found.verdict
