@@ -81,7 +81,9 @@ def rows() -> dict[tuple[str, str, str], str]:
     cells = [
         [cell.strip() for cell in line.strip("|").split("|")] for line in FOUND.splitlines() if line.startswith("| ")
     ]
-    return {(row[0].split()[0], row[1], row[2].split()[0]): row[3] for row in cells if len(row) == 5}
+    found = {(row[0].split()[0], row[1], row[2].split()[0]): row[3] for row in cells if len(row) == 5}
+    del found["package", "method", "claim"]
+    return found
 
 
 def test_the_table_has_every_claim_of_the_list_and_explains_what_is_no_pass():

@@ -12,7 +12,7 @@ from interop.methods import EXPLAINED, METHODS
 HEAD = """# What methods of other packages claim, and what is measured
 
 Claims are those of each package: of its documentation, its names and its attributes.
-The table is what `make interop` printed; [interop.md](interop.md) says how a method becomes what is judged.
+The table is laid out as `make interop` prints it; [interop.md](interop.md) says how a method becomes what is judged.
 Of {count} methods {good} hold all that their packages claim of them; what is no PASS is explained below the table.
 
 | package | method | claim | verdict | measured |
