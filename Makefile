@@ -73,7 +73,7 @@ interop: .venv-interop/.installed $(DATASET)
 
 .venv-interop/.installed: pyproject.toml
 	"$(PYTHON)" -m venv .venv-interop
-	.venv-interop/$(notdir $(BIN))/python -m pip install --quiet --editable '.[interop]'
+	.venv-interop/$(notdir $(BIN))/python -m pip install --quiet --editable '.[interop,test]'
 	@touch $@
 
 bench: $(STAMP) $(DATASET)
