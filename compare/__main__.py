@@ -157,6 +157,7 @@ def _check_against(file: str, request: Request) -> int:
     """Check an integrator, and hold what is found against the baseline in a file."""
     from compare.baseline import noted, opened
     from compare.claims.contained import contained
+    from compare.claims.exchange import WRITERS
     from compare.claims.regression import GATE, exit_code
     from compare.show.page import in_lines
     from compare.show.render import json_text, written
@@ -170,6 +171,8 @@ def _check_against(file: str, request: Request) -> int:
         text = json_text(noted(in_lines(found.document), changes))
     elif request.form == "text":
         text += "\n" + written(changes.table, "text")
+    elif request.form in WRITERS:
+        text = WRITERS[request.form](found.document, found.place, changes)
     _print(text)
     return exit_code(found.document, changes)
 

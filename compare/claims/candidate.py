@@ -10,7 +10,7 @@ import numpy as np
 
 from compare.claims.frames import Field, MisuseError, is_traced
 from compare.methods.own.adapters import hold_times, solution_of
-from compare.methods.own.hosting import MAX_CALLS, kind_of, real_numbers, told
+from compare.methods.own.hosting import MAX_CALLS, calling, kind_of, real_numbers
 from compare.methods.own.jitted import is_jitted, jitted
 
 if TYPE_CHECKING:
@@ -103,13 +103,8 @@ class Candidate:
         """
         if "f" in values and is_jitted(self.function):
             values = {**values, "f": jitted(values["f"])}
-        try:
-            with np.errstate(all="ignore"):
-                return self.function(*self.form.arguments(values))
-        except MisuseError:
-            raise
-        except (Exception, SystemExit) as error:
-            raise MisuseError(f"{self.name} raised {told(error)}.") from error
+        with calling(self.name):
+            return self.function(*self.form.arguments(values))
 
     def _joined(self, found: Any, y: Any) -> Any:
         """The new positions and momenta of a separable step as one state."""

@@ -28,7 +28,7 @@ from compare.claims.motion import motion
 from compare.claims.order import ladder, measured
 from compare.claims.powers import lower, powers
 from compare.claims.record import Check
-from compare.claims.tolerances import RTOLS, with_tolerance
+from compare.claims.tolerances import with_tolerance
 from compare.methods.own.adapters import adapted, with_arguments
 from compare.methods.own.deadline import TimeOut, deadline
 from compare.methods.own.hosting import repeatable
@@ -54,6 +54,8 @@ FRAME = 0.5, 0.7
 """Amplitude of the swinging frame in rad, or over the size of a motion, and its frequency over the motion's rate."""
 MARCH, TIMED_STEPS = 1 / 30, 16
 """Part of the time for the marches of one scene, where a step is slow, and steps by which that is seen."""
+FOLLOWED = 1 / 6
+"""Part of the time for the one march along which the invariants are followed."""
 MOST_STEPS = 4096
 LEAST_STEPS = 48
 LANES_OF_A_LADDER = 7
@@ -178,11 +180,16 @@ def _candidate(step: Callable[..., Any], form: str | None, claims: Claims) -> Ca
         MisuseError: what is claimed is of a single step, and it has none, or gives it in parts.
     """
     if claims.tolerance is not None:
-        step = with_arguments(step, with_tolerance(step, USUAL_RTOL))
+        step = with_arguments(step, with_tolerance(step, USUAL_RTOL, USUAL_RTOL))
     function, called = adapted(step if claims.estimate is None else new_state(step), form)
     candidate = Candidate(function, called, _name(step))
     if claims.tolerance is not None and not called.whole:
         raise MisuseError(f"a tolerance is claimed of {candidate.name}; that of (f, y0, t, rtol) is accepted.")
+    if claims.stiff is not None and called.own:
+        raise MisuseError(
+            f"an order on a stiff equation is claimed of {candidate.name}, which has its equation built in; that of "
+            "(f, t, y, h) is accepted."
+        )
     if claims.dense is not None and called.whole:
         raise MisuseError(f"dense output is claimed of {candidate.name}; that of a step (f, y, h) is accepted.")
     if claims.estimate is not None and (called.whole or called.separable):
@@ -206,9 +213,12 @@ def _beside(
     if claims.stiff is not None:
         yield stiffness.stiff(candidate, claims.stiff)
     if claims.tolerance is not None:
-        tighter = (with_arguments(step, with_tolerance(step, rtol)) for rtol in RTOLS)
-        candidates = (Candidate(*adapted(one, form), candidate.name) for one in tighter)
-        yield tolerances.judged(candidates, scene, claims.tolerance)
+
+        def with_one(rtol: float, atol: float) -> Candidate:
+            bound = with_arguments(step, with_tolerance(step, rtol, atol))
+            return Candidate(*adapted(bound, form), candidate.name)
+
+        yield tolerances.judged(with_one, scene, claims.tolerance)
 
 
 def _is_order(order: Any) -> bool:
@@ -238,14 +248,16 @@ def _checked(candidate: Candidate, claims: Claims, scene: Scene, seconds: float)
         series = lower(powers(candidate, scene, h), powers(candidate, frame, h))
     else:
         series = None if marcher.whole else powers(candidate, scene, h)
-    energy, *others = kept(marcher, h, most)
+    wanted = _most_steps(marcher, calls, 0.0, seconds)
+    followed = min(wanted, int(seconds * FOLLOWED / cost))
+    energy, *others = kept(marcher, h, followed)
     evidence = Evidence(
         possible=name != "compiled" and still.kind != "own steps",
         iterates=iterating,
-        bounded=energy.bounded,
+        bounded=energy.bounded if 4 * followed >= wanted else None,
     )
     headed = _heading(candidate, marcher, h)
-    back = _back(marcher, counts, until) if claims.backward and headed.backward == "right" else None
+    back = _back(marcher, counts, until) if claims.backward and headed.backward in {"right", "untried"} else None
     found = Check(
         name=candidate.name,
         form=candidate.form.name,
@@ -267,10 +279,19 @@ def _checked(candidate: Candidate, claims: Claims, scene: Scene, seconds: float)
 
 
 def _back(marcher: Marcher, counts: Sequence[int], until: float) -> Order | None:
-    """The order with negative steps from the start; None where the motion is not known before it."""
+    """The order with negative steps from the start; None where the motion is not known before it.
+
+    None as well of a whole integrator that takes no falling times, of which nobody knows before.
+    """
     scene = marcher.scene
-    domain = scene.problem.domain(scene.problem.row("state"))
-    return measured(marcher, -scene.span, counts, until) if domain.contains(Fraction(-scene.span)) else None
+    if not scene.problem.domain(scene.problem.row("state")).contains(Fraction(-scene.span)):
+        return None
+    try:
+        return measured(marcher, -scene.span, counts, until)
+    except MisuseError:
+        if not marcher.whole:
+            raise
+        return None
 
 
 def _hold_measurable(name: str, found: Order, claims: Claims, advance: float | None) -> None:
@@ -346,7 +367,7 @@ def _most_steps(marcher: Marcher, calls: float, cost: float, seconds: float) -> 
     together = isinstance(marcher, Steps) and not isinstance(marcher.engine, Lanes)
     allowed = CALLS_ON_ARRAYS if together else CALLS / LANES_OF_A_LADDER
     steps = int(min(max(allowed / max(calls, 1.0), LEAST_STEPS), MOST_STEPS))
-    within = seconds / cost / (1 if together else LANES_OF_A_LADDER)
+    within = seconds / max(cost, 1e-9) / (1 if together else LANES_OF_A_LADDER)
     while steps >= 2 * LEAST_STEPS and steps > within:
         steps //= 2
     return steps

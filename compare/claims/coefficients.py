@@ -33,6 +33,8 @@ MOST = 40
 """Stages, at most."""
 SAME, ALIKE = 1e-11, 1e-9
 """Coefficients that differ by less are the same, and states that a step gives."""
+STEPS = 1.0, 2.0, 3.0
+"""Of h, from which it is seen how a coefficient goes with it."""
 FEW = 2
 """A method with no more coefficients than these beside those of a known one is that one with a slip."""
 CONDITIONS = 6
@@ -41,7 +43,7 @@ CONDITIONS = 6
 
 @dataclass(frozen=True)
 class _Read:
-    """What was read: by name each coefficient with one h, and those of them that do not go with h."""
+    """What was read: by name each coefficient with h = 1, and how those of them that do not go with h go."""
 
     values: dict[str, float]
     by_square: tuple[str, ...]
@@ -58,7 +60,7 @@ def slip(candidate: Candidate, scene: Scene, order: float) -> str | None:
     if read is None:
         return None
     if read.by_square:
-        return f"{read.by_square[0]} goes with h^2, where it should go with h"
+        return f"{read.by_square[0]}, where it should go with h"
     if not _is_that_method(candidate, scene, read):
         return None
     if not candidate.form.separable and (told := _wrong_time(read)):
@@ -97,12 +99,12 @@ def _tableau(candidate: Candidate) -> _Read | None:
         found = {f"a_{i + 1}{j + 1}": row[j] for i, row in enumerate(rows) for j in range(i)}
         return found | {f"b_{i + 1}": weights[i] for i in range(count)}, probe, [*rows, weights[:count].tolist()]
 
-    (values, probe, rows), (twice, _, _) = read(1.0), read(2.0)
+    (values, probe, rows), *others = (read(h) for h in STEPS)
     if not values:
         return None
     times = probe.times
     nodes = None if any(t is None for t in times) else tuple(float(t or 0) for t in times)
-    return _checked(values, twice, nodes, rows)
+    return _checked([values, *(other for other, _, _ in others)], nodes, rows)
 
 
 def _splitting(candidate: Candidate) -> _Read | None:
@@ -120,24 +122,27 @@ def _splitting(candidate: Candidate) -> _Read | None:
         kicks = [sign * p[1 + i] for i in range(len(probe.questions))]
         return {f"drift {i + 1}": d for i, d in enumerate(drifts)} | {f"kick {i + 1}": k for i, k in enumerate(kicks)}
 
-    values, twice = read(1.0), read(2.0)
-    return _checked(values, twice, None, []) if values else None
+    values = [read(h) for h in STEPS]
+    return _checked(values, None, []) if values[0] else None
 
 
 def _checked(
-    values: dict[str, float],
-    twice: dict[str, float],
-    nodes: tuple[float, ...] | None,
-    rows: Sequence[Sequence[float]],
+    found: Sequence[dict[str, float]], nodes: tuple[float, ...] | None, rows: Sequence[Sequence[float]]
 ) -> _Read | None:
-    """What was read with h = 1 and h = 2; None where it is no such method."""
-    if values.keys() != twice.keys() or not all(np.isfinite(value) for value in values.values()):
+    """What was read with h = 1, 2 and 3: a h + b h^2 each, b zero as it should be; None where it is no such method."""
+    values, twice, thrice = found
+    if not values.keys() == twice.keys() == thrice.keys():
         return None
-    by_square = tuple(name for name in values if _same(twice[name], 4 * values[name]) and not _same(values[name], 0))
-    others = [name for name in values if name not in by_square]
-    if not all(_same(twice[name], 2 * values[name]) for name in others):
+    if not all(np.isfinite(value) for one in found for value in one.values()):
         return None
-    return _Read(values, by_square, nodes, tuple(map(tuple, rows)))
+    by_square = []
+    for name, one in values.items():
+        linear, square = (4 * one - twice[name]) / 2, (twice[name] - 2 * one) / 2
+        if not _same(thrice[name], 3 * linear + 9 * square):
+            return None
+        if not _same(square, 0):
+            by_square.append(f"{name} goes {'' if _same(linear, 0) else 'in part '}with h^2")
+    return _Read(values, tuple(by_square), nodes, tuple(map(tuple, rows)))
 
 
 def _is_that_method(candidate: Candidate, scene: Scene, read: _Read) -> bool:

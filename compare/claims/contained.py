@@ -42,11 +42,19 @@ class ContainedError(ValueError):
 
 
 class Answer(NamedTuple):
-    """What a check says, the exit code: 0, 1 where a claim fails, or 3 where one is not established; and its JSON."""
+    """What a check says.
+
+    Attributes:
+        text: in the form that was asked for.
+        code: the exit code: 0, 1 where a claim fails, or 3 where one is not established.
+        document: its JSON.
+        place: the file and the line where the step is written, None where nobody knows.
+    """
 
     text: str
     code: int
     document: Any
+    place: tuple[str, int] | None
 
 
 def contained(options: dict[str, Any], form: str) -> Answer:
@@ -75,7 +83,8 @@ def contained(options: dict[str, Any], form: str) -> Answer:
                 raise ContainedError(f"{found['left']}; a step that returns is accepted{_no_verdict(options)}.")
             if "refused" in found:
                 raise ContainedError(found["refused"])
-        return Answer(found["text"], found["code"], found["document"])
+        place = None if found["place"] is None else (str(found["place"][0]), int(found["place"][1]))
+        return Answer(found["text"], found["code"], found["document"], place)
 
 
 def _how_it_ended(pid: int, name: str, late: str) -> str:

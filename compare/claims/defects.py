@@ -74,12 +74,12 @@ class Evidence:
     Attributes:
         possible: whether it may: not where it is compiled, or chooses its own steps.
         iterates: whether the calls of f that it makes differ from state to state or from step to step.
-        bounded: whether the energy stays bounded.
+        bounded: whether the energy stays bounded; None where the time was too short to see it.
     """
 
     possible: bool
     iterates: bool
-    bounded: bool
+    bounded: bool | None
 
 
 def _judged(sizes: Sequence[float], signed: np.ndarray, h: float, evidence: Evidence) -> Defect:
@@ -88,8 +88,8 @@ def _judged(sizes: Sequence[float], signed: np.ndarray, h: float, evidence: Evid
         return Defect(sizes[1], h, none=True)
     both_ways = bool(np.min(signed) < 0 < np.max(signed))
     steady = max(sizes) <= GROWTH * sizes[0]
-    if max(sizes) <= TOLERATED and evidence.possible and evidence.bounded and both_ways:
-        if steady != evidence.iterates:
+    if max(sizes) <= TOLERATED and evidence.possible and evidence.bounded is not False and both_ways:
+        if steady != evidence.iterates or evidence.bounded is None:
             return Defect(sizes[1], h, none=False, undecided=True)
         if steady:
             return Defect(sizes[1], h, none=True, tolerance=True)

@@ -14,6 +14,7 @@ from compare.claims.motion import motion
 from compare.claims.verdicts import Tried, Verdict
 from compare.methods.own.deadline import TimeOut, deadline
 from compare.methods.own.forms import role_of
+from compare.methods.own.hosting import calling
 from reference.arithmetic.namespaces import NUMPY
 
 if TYPE_CHECKING:
@@ -68,7 +69,7 @@ def check_events(
 
     values = {"f": field, "event": event, "span": (0.0, until), "y": scene.start}
     try:
-        with deadline(seconds):
+        with deadline(seconds), calling(name):
             found = find(*(values[role] for role in _roles(find)))
     except TimeOut:
         raise MisuseError(f"{name} took more than {seconds:g} s; one that returns is accepted.") from None

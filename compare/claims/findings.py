@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from compare.claims.powers import Powers
     from compare.claims.verdicts import Standing, Verdict
 
-__all__ = ["WIDEST", "Claims", "Findings"]
+__all__ = ["ORDER_MARGIN", "WIDEST", "Claims", "Findings", "reaches"]
 
 ORDER_MARGIN = 0.2
 """A measured order may be so much lower than the one claimed, or as much as its interval says."""
@@ -27,6 +27,21 @@ WIDEST = 0.3
 
 BUILT_IN = 0.05
 """A constant slope that is advanced so wrongly, where the motion is not, tells that a part of it is built in."""
+
+
+def reaches(found: Order, claim: float, missed: float = ORDER_MARGIN) -> Standing:
+    """How the claim of an order stands by slopes alone.
+
+    Args:
+        found: what was measured.
+        claim: the order that is claimed.
+        missed: how far the order has to be above the interval of slopes for the claim to fail.
+    """
+    if found.value is None:
+        return "holds" if found.kind == "floor" else "open"
+    if found.half_width <= WIDEST and found.value + max(ORDER_MARGIN, found.half_width) >= claim:
+        return "holds"
+    return "fails" if claim - found.value - found.half_width > missed or found.kind == "flat" else "open"
 
 
 @dataclass(frozen=True)
@@ -50,7 +65,7 @@ class Findings:
 
     Attributes:
         name: what it is called.
-        form: "step", "timed", "separable" or "integrator".
+        form: one of ``compare.methods.own.forms.FORMS`` by name, or "class", "generator" or "solver".
         engine: how it was run: "compiled", "on arrays", "lane by lane", or "whole".
         problem: what it was tried on.
         claims: what is said of it.
@@ -86,6 +101,11 @@ class Findings:
     others: tuple[Energy, ...] = ()
     back: Order | None = None
     more: tuple[Verdict, ...] = ()
+
+    @property
+    def whole(self) -> bool:
+        """Whether it goes over a grid of times by itself."""
+        return self.engine == "whole"
 
     @property
     def order(self) -> Order:
@@ -141,7 +161,7 @@ class Findings:
     @property
     def consistent(self) -> bool:
         """Whether it goes along f, forwards, and advances a constant slope by h, as far as that was tried."""
-        lost = self.form == "integrator" and self.still.kind == "flat"
+        lost = self.whole and self.still.kind == "flat"
         return self.heading.consistent and self.heading.uses and not lost and self._advances
 
     @property
@@ -214,11 +234,7 @@ class Findings:
             return None
         if not self.possible:
             return "fails"
-        if back is None or back.value is None:
-            return "holds" if back is not None and back.kind == "floor" else "open"
-        if back.half_width <= WIDEST and back.value + max(ORDER_MARGIN, back.half_width) >= claim:
-            return "holds"
-        return "fails" if claim - back.value - back.half_width > MISSED or back.kind == "flat" else "open"
+        return "open" if back is None else reaches(back, claim, MISSED)
 
     @property
     def _conservation(self) -> Standing | None:

@@ -6,6 +6,8 @@ dy(t)/dt0 = -S(t) f(t0, y0)
 
 from __future__ import annotations
 
+import math
+from fractions import Fraction
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
@@ -16,6 +18,7 @@ from compare.claims.limits import SECONDS
 from compare.claims.motion import motion
 from compare.claims.verdicts import Tried, Verdict
 from compare.methods.own.deadline import TimeOut, deadline
+from compare.methods.own.hosting import calling
 from reference.arithmetic.namespaces import NUMPY
 from reference.flow import Flow
 from reference.names import unknown
@@ -63,14 +66,22 @@ def check_gradients(
     scene = Scene(motion(problem))
     name = str(getattr(gradients, "__name__", type(gradients).__name__))
     t = HALF_WAY * scene.span if t is None else float(t)
+    _hold_time(scene, t)
     parameters = {key: float(value) for key, value in scene.problem.parameters.items()}
     try:
-        with deadline(seconds):
+        with deadline(seconds), calling(name):
             found = gradients(scene.start, dict(parameters), t)
     except TimeOut:
         raise MisuseError(f"{name} took more than {seconds:g} s; one that returns is accepted.") from None
     columns = _columns(found, name, scene, parameters)
-    proven = _proven(scene, parameters, t, list(columns))
+    try:
+        with deadline(seconds):
+            proven = _proven(scene, parameters, t, list(columns))
+    except TimeOut:
+        raise MisuseError(
+            f"the derivatives at t = {t:g} take more than {seconds:g} s to be proven; an earlier time is accepted, or "
+            "a longer one for them."
+        ) from None
     return Tried(name, repr(scene.problem), (_verdict(columns, proven, accuracy, t),))
 
 
@@ -84,6 +95,17 @@ def assert_gradients(gradients: Callable[..., Any], accuracy: float = 1e-6, **ho
     found = check_gradients(gradients, accuracy, **how)
     found.assert_holds()
     return found
+
+
+def _hold_time(scene: Scene, t: float) -> None:
+    """Refuse a time at which there is nothing to be seen.
+
+    Raises:
+        ValueError: it is the start, or the motion does not go on until then.
+    """
+    domain = scene.problem.domain(scene.problem.row("state"))
+    if not math.isfinite(t) or t == 0 or not domain.contains(Fraction(t)):
+        raise ValueError(f"t is {t!r}; a time other than the start, of the motion of {scene.problem!r}, is accepted.")
 
 
 def _columns(found: Any, name: str, scene: Scene, parameters: Mapping[str, float]) -> dict[str, np.ndarray]:

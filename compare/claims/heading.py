@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from compare.claims.candidate import Candidate
     from compare.claims.frames import Scene
 
-__all__ = ["UNTRIED", "Heading", "heading"]
+__all__ = ["UNTRIED", "Heading", "heading", "units_of_a_step"]
 
 SHORT, SHORTER, SHORTEST = 8, 64, 1 << 16
 """Steps, as parts of h, with which the slope of a step is compared with f; the last with a known mistake of a large
@@ -70,8 +70,9 @@ def heading(candidate: Candidate, scene: Scene, h: float) -> Heading:
     trial = _Trial(candidate, scene, h)
     slopes = trial.slope(h / SHORTER)
     used = candidate.form.own or uses(candidate, scene, h)
-    consistent = trial.along(slopes, trial.slope(h / SHORT))
-    cause = None if consistent else _cause(slopes, trial.slope(h / SHORT), trial, scene)
+    least = trial.slope(h / SHORTEST)
+    consistent = trial.along(slopes, trial.slope(h / SHORT)) and _factor(least, trial.rates) is None
+    cause = None if consistent else _cause(slopes, trial.slope(h / SHORT), least, trial, scene)
     try:
         back = trial.along(trial.slope(-h / SHORTER), trial.slope(-h / SHORT)) and trial.as_good_back(h / 2)
     except (MisuseError, Exhausted):
@@ -104,14 +105,13 @@ class _Trial(Points):
         return back <= max(WORSE * forth, MATTERS)
 
 
-def _cause(slopes: np.ndarray, longer: np.ndarray, trial: _Trial, scene: Scene) -> str | None:
-    """What a slope is in place of f, where it is known; ``longer`` is that of a step which is so much longer."""
-    rates, least = trial.rates, trial.slope(scene.step / SHORTEST)
+def _cause(slopes: np.ndarray, longer: np.ndarray, least: np.ndarray, trial: _Trial, scene: Scene) -> str | None:
+    """What a slope is in place of f, where it is known; that of a longer step and of the shortest tell besides."""
+    rates = trial.rates
     if np.any(slopes) and _multiple(longer, slopes, (SHORTER / SHORT,)) is not None:
         return "what it adds goes with h^2, where it should go with h"
     if (factor := _factor(least, rates)) is not None:
-        far = {1000: ", as where h is turned into milliseconds", 0.001: ", as where h is taken for milliseconds"}
-        return f"it goes on by {factor:.4g} h{next((why for k, why in far.items() if abs(factor / k - 1) < MATCH), '')}"
+        return f"it goes on by {factor:.4g} h{units_of_a_step(factor)}"
     if _in_degrees(least, trial, scene):
         return "it goes along f of angles in degrees, where they are in radians"
     first = scene.problem.space.places(scene.problem.space.positions)
@@ -119,6 +119,12 @@ def _cause(slopes: np.ndarray, longer: np.ndarray, trial: _Trial, scene: Scene) 
     signs = (1, 0, -1)
     known = (_multiple(slopes[:, places], rates[:, places], signs) for places in (first, second))
     return CAUSES.get(tuple(known))
+
+
+def units_of_a_step(factor: float) -> str:
+    """What explains steps of so many h, behind a comma; nothing where that is not known."""
+    known = {1000: ", as where h is turned into milliseconds", 0.001: ", as where h is taken for milliseconds"}
+    return next((why for k, why in known.items() if abs(factor / k - 1) < MATCH), "")
 
 
 def _multiple(slopes: np.ndarray, rates: np.ndarray, factors: Sequence[float]) -> float | None:

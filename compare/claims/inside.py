@@ -78,7 +78,7 @@ def _identity(handle: int) -> tuple[int, int] | None:
 
 
 def _answer(line: _Line, request: dict[str, Any]) -> dict[str, Any]:
-    """The check as text with its exit code, and as JSON has it; or why it is refused."""
+    """The check as text with its exit code, as JSON has it, and where the step is written; or why it is refused."""
     from compare.methods.own.forms import loaded
     from reference.command.terminal import sentence
 
@@ -105,11 +105,10 @@ def _answer(line: _Line, request: dict[str, Any]) -> dict[str, Any]:
             raise  # a fault of the judge's own, of which the traceback says most
         return {"left": f"{name} raised {type(error).__name__}"}
     page = show.page(found)
-    if request["form"] in exchange.WRITERS:
-        text = exchange.WRITERS[request["form"]](found, exchange.place_of(step))
-    else:
-        text = render.render(page, request["form"])
-    return {"text": text, "code": EXIT_CODES[found.claims_hold], "document": document_of(page)}
+    document, place = document_of(page), exchange.place_of(step)
+    writer = exchange.WRITERS.get(request["form"])
+    text = render.render(page, request["form"]) if writer is None else writer(document, place, None)
+    return {"text": text, "code": EXIT_CODES[found.claims_hold], "document": document, "place": place}
 
 
 def _step(options: dict[str, Any], loaded: Any) -> Any:

@@ -17,7 +17,7 @@ import numpy as np
 
 from compare.claims.candidate import Candidate
 from compare.claims.engine import Lanes
-from compare.claims.findings import ORDER_MARGIN, WIDEST
+from compare.claims.findings import ORDER_MARGIN, WIDEST, reaches
 from compare.claims.frames import MisuseError
 from compare.claims.order import Cell, Order, fitted
 from compare.claims.points import Points
@@ -44,7 +44,7 @@ or of states."""
 PLACES = (0.21, 0.47, 0.83)
 """Parts of a step at which it is tried: no zeros of usual error polynomials."""
 PLACE = "theta s sigma part fraction place c"
-"""What the part of a step is often called."""
+"""What the part of a step is often called; the last of them is, where a state is called so too."""
 MET, NEAR_END = 1e-10, 1e-4
 """An end is met to so much; a slope is taken over so much of a step."""
 VANISHING = 1e-2
@@ -101,7 +101,8 @@ class _Between:
                 f"the interpolant has the arguments {', '.join(names) or 'none'}; (f, y, h, theta) or "
                 "(f, t, y, h, theta) is accepted."
             )
-        self._place = next((i for i, name in enumerate(names) if name.casefold() in PLACE.split()), len(names) - 1)
+        called_so = [i for i, name in enumerate(names) if name.casefold() in PLACE.split()]
+        self._place = called_so[-1] if called_so else len(names) - 1
         self._name = str(getattr(function, "__name__", type(function).__name__))
 
     def at(self, place: float) -> Candidate:
@@ -223,8 +224,5 @@ def _at_least(found: Order, claim: float) -> tuple[Standing, str]:
         if found.kind == "floor":
             return "holds", "error at rounding with every step"
         return ("fails", "it does not fall with h") if found.kind == "flat" else ("open", "no order is to be seen")
-    value, half = found.value - 1, found.half_width
-    measured = f"measured {value:.2f} ± {half:.2f}, since in a step it goes with h^{found.value:.2f}"
-    if half <= WIDEST and value + max(ORDER_MARGIN, half) >= claim:
-        return "holds", measured
-    return ("fails" if claim - value - half > ORDER_MARGIN else "open"), measured
+    order = replace(found, value=found.value - 1)
+    return reaches(order, claim), f"{order.words}, since in a step it goes with h^{found.value:.2f}"

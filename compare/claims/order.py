@@ -92,6 +92,15 @@ class Order:
         """The ends of the interval."""
         return None if self.value is None else (self.value - self.half_width, self.value + self.half_width)
 
+    @property
+    def words(self) -> str:
+        """What was measured."""
+        if self.value is None:
+            return "error at rounding with every step" if self.kind == "floor" else "no order is to be seen"
+        if self.kind == "flat":
+            return f"does not converge: the error stays at {self.cells[-1].error:.0e}"
+        return f"measured {self.value:.2f} ± {self.half_width:.2f}"
+
 
 def ladder(most: int) -> tuple[int, ...]:
     """8, 12, 16, ..., 32, 40, ..., 64, 96, 128, 192, ... up to ``most``: multiples of the samples.

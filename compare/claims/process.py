@@ -18,6 +18,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from compare.claims.frames import MisuseError
+from compare.methods.own.deadline import TimeOut
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -38,15 +39,21 @@ class Process:
         timed: whether it reads the time.
 
     Raises:
-        ValueError: the command is empty.
+        ValueError: the command is empty, or has a quotation that does not end.
     """
 
     def __init__(self, command: str | Sequence[str], *, timed: bool = False) -> None:
-        self._command = shlex.split(command) if isinstance(command, str) else list(command)
+        try:
+            self._command = shlex.split(command) if isinstance(command, str) else list(command)
+        except ValueError as error:
+            raise ValueError(
+                f"the command {command} has no end ({str(error).rstrip('.').lower()}); words as a shell takes them are "
+                "accepted."
+            ) from None
         if not self._command:
             raise ValueError("the command is empty; a program and its arguments are accepted.")
         self._timed, self._process = timed, None
-        self.__name__ = self._command[0].rpartition("/")[2]
+        self.__name__ = shlex.join(self._command)
         names = ("t", "y", "h") if timed else ("y", "h")
         kind = inspect.Parameter.POSITIONAL_ONLY
         self.__signature__ = inspect.Signature([inspect.Parameter(name, kind) for name in names])
@@ -82,7 +89,13 @@ class Process:
             process.stdin.flush()
         except BrokenPipeError:
             raise self._ended(process) from None
-        return [self._answer(line, process.stdout.readline(), count) for line in lines]
+        try:
+            return [self._answer(line, process.stdout.readline(), count) for line in lines]
+        except TimeOut:
+            raise MisuseError(
+                f"{self.__name__} wrote no line in the time that there was; one that flushes each line that it writes "
+                "is accepted."
+            ) from None
 
     def _answer(self, line: str, told: str, count: int) -> list[float]:
         if not told.endswith("\n") and self._process is not None:
@@ -107,7 +120,7 @@ class Process:
         if self._process is None:
             try:
                 self._process = subprocess.Popen(  # noqa: S603 - the user's own program
-                    self._command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, encoding="utf-8"
+                    self._command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, encoding="utf-8", errors="replace"
                 )
             except OSError as error:
                 raise MisuseError(

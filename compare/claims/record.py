@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from compare.claims.findings import Findings
+from compare.claims.heading import units_of_a_step
 from compare.claims.verdicts import Judged, Verdict
 
 if TYPE_CHECKING:
@@ -15,6 +16,8 @@ if TYPE_CHECKING:
 
 __all__ = ["Check"]
 
+ROUNDING = 1e-14
+"""A plateau from here down is rounding."""
 MORE = 0.4
 """An interval so far above a claim is more than claimed."""
 
@@ -70,14 +73,14 @@ class Check(Findings, Judged):
         if not self.heading.uses:
             return "it makes no use of f, and moves the same way whatever f is"
         if self.advance is not None and self.advance != 1:
-            return f"a constant slope is advanced by {self.advance:.12g} h"
+            return f"a constant slope is advanced by {self.advance:.12g} h{units_of_a_step(self.advance)}"
         return "a short step does not go along f"
 
     @property
     def _what_would_decide(self) -> str:
         if self.short_of_digits:
             return "coefficients of more digits would decide it"
-        if self.form == "integrator":
+        if self.whole:
             return "one of its steps as a function (f, y, h) would decide it"
         return (
             "plain arithmetic, on numbers that are not turned into floats, and without a branch on what changes with "
@@ -119,20 +122,14 @@ class Check(Findings, Judged):
             words += f" where the time enters, {self.still.value:.2f} where it does not" * (self._times_matter)
         if order.plateau is not None:
             words += f" down to an error of {order.plateau:.0e}, where it stops falling"
-            words += ", excused as a tolerance (it may be a fault)" * self.consistent
+            words += ", excused as a tolerance (it may be a fault)" * (self.consistent and order.plateau > ROUNDING)
         return words
 
     @property
     def _back_words(self) -> str:
         """What is known of the order with h < 0."""
         back = self.back
-        if back is None:
-            return "not measured: it takes no step back, or the motion has no past"
-        if back.value is None:
-            return "error at rounding with every step" if back.kind == "floor" else "no order is to be seen"
-        if back.kind == "flat":
-            return f"does not converge: the error stays at {back.cells[-1].error:.0e}"
-        return f"measured {back.value:.2f} ± {back.half_width:.2f}"
+        return "not measured: it takes no step back, or the motion has no past" if back is None else back.words
 
     @property
     def _more_words(self) -> str:

@@ -11,7 +11,7 @@ import math
 from typing import TYPE_CHECKING
 
 from compare.claims.engine import Steps, Whole, chosen
-from compare.claims.findings import ORDER_MARGIN, WIDEST
+from compare.claims.findings import reaches
 from compare.claims.frames import Exhausted, MisuseError, Scene
 from compare.claims.order import measured
 from compare.claims.verdicts import Verdict
@@ -55,16 +55,7 @@ UNSTABLE = ("it is explicit, not stable there, or its inner iteration does not c
 
 
 def _standing(found: Order, claim: float) -> tuple[Standing, str]:
-    if found.kind == "floor":
-        return "holds", "error at rounding with every step"
-    if found.value is None:
-        return "open", "no order is to be seen"
-    if found.kind == "flat":
-        return "fails", f"does not converge: the error stays at {found.cells[-1].error:.0e}"
-    told = f"measured {found.value:.2f} ± {found.half_width:.2f}"
-    if found.half_width <= WIDEST and found.value + max(ORDER_MARGIN, found.half_width) >= claim:
-        return "holds", told
-    return ("fails" if claim - found.value - found.half_width > ORDER_MARGIN else "open"), told
+    return reaches(found, claim), found.words
 
 
 def _marcher(candidate: Candidate, scene: Scene) -> Marcher:

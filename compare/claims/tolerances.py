@@ -21,7 +21,7 @@ from compare.measure.order_fit import slope_with_interval
 from compare.methods.own.forms import role_of
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator, Sequence
+    from collections.abc import Callable, Sequence
 
     from compare.claims.candidate import Candidate
     from compare.claims.frames import Scene
@@ -36,12 +36,12 @@ ROUNDING = 1e-12
 """Errors from here down are rounding."""
 LEAST = 4
 """Tolerances, at least, from which a power is told."""
-MARGIN = 0.25
+MARGIN = 0.15
 """A power may be so much less than the one that is claimed: errors go with tolerances in steps and leaps."""
 
 
-def with_tolerance(function: Callable[..., Any], rtol: float) -> dict[str, float]:
-    """The arguments by name that give an integrator a relative tolerance, and the same as its absolute one.
+def with_tolerance(function: Callable[..., Any], rtol: float, atol: float) -> dict[str, float]:
+    """The arguments by name that give an integrator a relative tolerance, and an absolute one if it takes one.
 
     Raises:
         MisuseError: it takes none.
@@ -55,23 +55,28 @@ def with_tolerance(function: Callable[..., Any], rtol: float) -> dict[str, float
             f"a tolerance is claimed of {getattr(function, '__name__', 'it')}, which takes none; an argument rtol is "
             "accepted."
         )
-    return {roles[role]: rtol for role in ("rtol", "atol") if role in roles}
+    given = {"rtol": rtol, "atol": atol}
+    return {roles[role]: given[role] for role in ("rtol", "atol") if role in roles}
 
 
-def judged(candidates: Iterator[Candidate], scene: Scene, power: float) -> Verdict:
-    """On the claim that the error falls with this power of the tolerance, of a candidate for each of RTOLS.
+def judged(with_one: Callable[[float, float], Candidate], scene: Scene, power: float) -> Verdict:
+    """On the claim that the error falls with this power of the tolerance, of what ``with_one(rtol, atol)`` gives.
+
+    Both tolerances fall together; that it is the relative one that is used is seen with the absolute one left small.
 
     Raises:
         MisuseError: one fails.
     """
     words = f"an error that goes with rtol^{power:g}" if power != 1 else "an error in proportion to rtol"
-    errors, marches = [], []
-    for candidate in candidates:
-        marches.append(_states(candidate, scene))
-        errors.append(_error(scene, marches[-1]))
+    marches = [_states(with_one(rtol, rtol), scene) for rtol in RTOLS]
+    errors = [_error(scene, states) for states in marches]
     told = ", ".join(f"{error:.0e}" for error in errors)
     if all(np.array_equal(states, marches[0]) for states in marches):
         return Verdict.of("tolerance", words, "fails", f"error {errors[0]:.0e} with every rtol", ("it is not used",))
+    loose, tight = (_states(with_one(rtol, RTOLS[-1]), scene) for rtol in (RTOLS[0], RTOLS[-1]))
+    if np.array_equal(loose, tight):
+        told = f"error {_error(scene, loose):.0e} with every rtol where atol = {RTOLS[-1]:g}"
+        return Verdict.of("tolerance", words, "fails", told, ("it uses atol alone",))
     bound = next(k for k, states in enumerate(marches) if not np.array_equal(states, marches[0]))
     free = list(zip(RTOLS, errors, strict=True))[bound if bound > 1 else 0 :]
     usable = [(rtol, error) for rtol, error in free if ROUNDING < error < 1]

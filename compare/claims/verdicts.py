@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from abc import abstractmethod
+from abc import ABC, abstractmethod
 from dataclasses import dataclass
 from typing import Literal
 
@@ -40,7 +40,7 @@ class Verdict:
         return f"{self.standing}  {self.words}: {'; '.join([self.measured, *self.causes])}"
 
 
-class Judged:
+class Judged(ABC):
     """Something of which claims were tried on a problem."""
 
     name: str
@@ -65,9 +65,7 @@ class Judged:
             ValueError: nothing is claimed.
         """
         if not self.verdicts:
-            raise ValueError(
-                f"nothing is claimed of {self.name}; an order, symplectic, reversible or conserves is accepted."
-            )
+            raise ValueError(f"nothing is claimed of {self.name}; an order, symplectic, or another claim is accepted.")
         told = [f"{self.name} on {self.problem}: {one}." for one in self.verdicts if one.standing != "PASS"]
         if told:
             raise AssertionError("\n".join(told))

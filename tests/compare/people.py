@@ -1,7 +1,7 @@
 """What people have: integrators as classes, generators, solvers over a span, and what they give beside states."""
 
 import math
-from itertools import pairwise
+from itertools import accumulate, pairwise
 from types import SimpleNamespace
 
 import numpy as np
@@ -50,6 +50,16 @@ class WithFrozenTime(Stepper):
         self.t += self.h
 
 
+class Formula:
+    """Made with f alone; the state is handed on."""
+
+    def __init__(self, f):
+        self.f = f
+
+    def step(self, t, y, h):
+        return timed(self.f, t, y, h)
+
+
 class Advancing:
     def __init__(self, rhs, u0, dt):
         self.rhs, self.state = rhs, np.array(u0)
@@ -93,6 +103,33 @@ def times_and_states(f, t0, y0, h):
         y = timed(f, t, y, h)
         t += h
         yield t, y
+
+
+def at_times_of_its_own(f, t_span, y0, h):
+    """A right method with another step than h, which it tells."""
+    t, y = t_span[0], y0
+    while True:
+        yield t, y
+        t, y = t + 0.7 * h, timed(f, t, y, 0.7 * h)
+
+
+def doubly(f, y0, t):
+    """Twice the step that is asked for."""
+    return np.array([*accumulate(np.diff(t), lambda y, h: midpoint(f, y, 2 * h), initial=y0)])
+
+
+class Doubly:
+    """The same."""
+
+    def __init__(self, f, y0, h):
+        self.f, self.y, self.h = f, y0, h
+
+    def step(self):
+        self.y = midpoint(self.f, self.y, 2 * self.h)
+
+
+def midpoint(f, y, h):
+    return y + h * f(y + h / 2 * f(y))
 
 
 def over_a_span(fun, t_span, y0, t_eval=None):
@@ -198,6 +235,10 @@ def adaptive_to_the_end(fun, t_span, y0, rtol=1e-3):
 
 def deaf_to_rtol(fun, t_span, y0, t_eval=None, rtol=1e-3):
     return adaptive(fun, t_span, y0, t_eval)
+
+
+def deaf_to_rtol_but_not_to_atol(fun, t_span, y0, t_eval=None, rtol=1e-3, atol=1e-6):
+    return adaptive(fun, t_span, y0, t_eval, rtol=3e-14, atol=100 * atol)
 
 
 def by_the_root_of_rtol(fun, t_span, y0, t_eval=None, rtol=1e-3):

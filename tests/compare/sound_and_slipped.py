@@ -55,20 +55,28 @@ class Made:
     tolerance: float = 1e-13
     numbers: dict[str, Any] = field(default_factory=dict)
     slip: str = ""
+    beside: bool = False
 
     @property
     def told(self) -> str:
-        return f"{self.method.name} as {self.form} on {self.problem!r}{': ' * bool(self.slip)}{self.slip}"
+        more = " with all that it has beside" * self.beside
+        return f"{self.method.name} as {self.form}{more} on {self.problem!r}{': ' * bool(self.slip)}{self.slip}"
 
     @property
     def function(self) -> Any:
-        return FORMS[self.form](self.numbers, self.tolerance)
+        return FORMS[self.form](self.numbers if self.beside else {**self.numbers, "e": None}, self.tolerance)
 
     @property
     def claims(self) -> dict[str, Any]:
         found: dict[str, Any] = {"order": self.method.order, "problem": self.problem}
         if isinstance(self.method, Splitting):
             found |= {"symplectic": True, "reversible": self.method.symmetric or None}
+        if self.beside:
+            found["backward"] = True
+        if self.beside and self.form in WITH_ESTIMATES:
+            found |= {"dense": min(3, self.method.order), "interpolant": hermite(self.function)}
+            if self.method.embedded:
+                found["estimate"] = min(self.method.order, self.method.embedded[0].order)
         return found
 
 
@@ -76,11 +84,13 @@ def numbers_of(method: Tableau | Splitting) -> dict[str, Any]:
     if isinstance(method, Splitting):
         return {"flows": [(kind, number(weight)) for kind, weight in method.flows]}
     a = np.array([[number(entry) for entry in row] for row in method.matrix])
-    return {"a": a, "b": np.array([number(entry) for entry in method.b]), "c": a.sum(axis=1)}
+    b = np.array([number(entry) for entry in method.b])
+    pairs = [b - np.array([number(entry) for entry in other.b]) for other in method.embedded[:1]]
+    return {"a": a, "b": b, "c": a.sum(axis=1), "e": pairs[0] if pairs else None}
 
 
 def runge_kutta(numbers, _tolerance):
-    a, b, c = numbers["a"], numbers["b"], numbers["c"]
+    a, b, c, e = numbers["a"], numbers["b"], numbers["c"], numbers.get("e")
 
     def step(f, t, y, h):
         k = []
@@ -90,12 +100,28 @@ def runge_kutta(numbers, _tolerance):
                 if a[i, j]:
                     z = z + h * float(a[i, j]) * k[j]
             k.append(f(t + h * float(c[i]), z))
+        error = 0 * y
         for weight, slope in zip(b, k, strict=True):
             if weight:
                 y = y + h * float(weight) * slope
-        return y
+        for weight, slope in zip(() if e is None else e, k, strict=e is not None):
+            error = error + h * float(weight) * slope
+        return y if e is None else (y, error)
 
     return step
+
+
+def hermite(step):
+    """Hermite's cubic between the ends of a step (f, t, y, h), of order 3 where that has it."""
+
+    def between(f, t, y, h, theta):
+        found = step(f, t, y, h)
+        end = found[0] if isinstance(found, tuple) else found
+        first, last = h * f(t, y), h * f(t + h, end)
+        bend = (1 - 2 * theta) * (end - y) + (theta - 1) * first + theta * last
+        return (1 - theta) * y + theta * end + theta * (theta - 1) * bend
+
+    return between
 
 
 def untimed(numbers, tolerance):
@@ -221,6 +247,9 @@ FORMS: dict[str, Callable[..., Any]] = {
     "separable": splitting,
     "gradient": of_a_potential,
 }
+WITH_ESTIMATES = ("timed", "floats")
+WITH_A_PAST = ("pendulum", "rotating", "linear")
+"""Problems whose motion is proven before the start."""
 OF_RUNGE_KUTTA = ("timed", "step", "floats", "class", "generator", "solver")
 SEPARABLE = ("pendulum", "rotating", "linear", "henon-heiles")
 
@@ -231,12 +260,12 @@ def sound(r: random.Random) -> Made:
     known = problems()
     if kind == "splitting":
         method: Any = r.choice(SPLITTINGS)
-        form, problem = r.choice(("separable", "gradient")), known[r.choice(SEPARABLE)](r)
+        form, name = r.choice(("separable", "gradient")), r.choice(SEPARABLE)
     else:
         method = r.choice(EXPLICIT if kind == "explicit" else IMPLICIT)
-        form = "newton" if kind == "implicit" else r.choice(OF_RUNGE_KUTTA)
-        problem = known[r.choice(sorted(known))](r)
-    return Made(method, form, problem, 10.0 ** -r.randint(11, 14), numbers_of(method))
+        form, name = "newton" if kind == "implicit" else r.choice(OF_RUNGE_KUTTA), r.choice(sorted(known))
+    beside = name in WITH_A_PAST and form not in {"class", "generator", "solver"} and r.random() < 0.5
+    return Made(method, form, known[name](r), 10.0 ** -r.randint(11, 14), numbers_of(method), beside=beside)
 
 
 def slipped(r: random.Random) -> Made:
@@ -245,7 +274,7 @@ def slipped(r: random.Random) -> Made:
     while found.form == "newton":
         found = sound(r)
     kind = r.choice(("coefficient", "sign", "index"))
-    numbers = {name: value.copy() for name, value in found.numbers.items()}
+    numbers = {name: value if value is None else value.copy() for name, value in found.numbers.items()}
     if "flows" in numbers:
         told = _slip_of_flows(r, kind, numbers["flows"])
     else:
@@ -266,7 +295,7 @@ def _slip_of_flows(r: random.Random, kind: str, flows: list[tuple[str, float]]) 
 
 
 def _slip_of_tableau(r: random.Random, kind: str, numbers: dict[str, Any], *, timed: bool) -> str:
-    names = ["a", "b", "c"] if timed else ["a", "b"]
+    names = [name for name in "abce" if numbers[name] is not None and (timed or name != "c")]
     name = r.choice(names)
     array = numbers[name]
     places = list(zip(*np.nonzero(array), strict=True))
@@ -275,7 +304,7 @@ def _slip_of_tableau(r: random.Random, kind: str, numbers: dict[str, Any], *, ti
     place = r.choice(places)
     before = float(array[place])
     if kind == "index":
-        others = [(*place[:-1], k) for k in range(place[0] if name == "a" else len(numbers["b"])) if k != place[-1]]
+        others = [(*place[:-1], k) for k in range(place[0] if name == "a" else len(array)) if k != place[-1]]
         if not others:
             return ""
         other = r.choice(others)

@@ -20,7 +20,7 @@ import pytest
 import compare
 from compare.__main__ import main
 from compare.baseline import Entry, Gate, Large, Rounding, Small, Standing, opened
-from compare.claims import inside
+from compare.claims import exchange, inside
 from compare.claims import regression as of_check
 from compare.claims.contained import Answer
 from compare.files import regression as of_score
@@ -277,8 +277,23 @@ def test_a_check_tells_the_comparison_in_json_and_beside_xml(kept, capsys):
     assert found == json.loads(text)
     assert main([*words, "--baseline", EARLIER, "--format", "junit"]) == 1
     printed = capsys.readouterr()
-    assert ET.fromstring(printed.out.encode()).get("failures") == "0"  # noqa: S314 - our own
+    (failure,) = ET.fromstring(printed.out.encode()).iter("failure")  # noqa: S314 - our own
+    assert failure.text == "gone: present was yes, is no"
     assert printed.err.endswith("worse: gone: present was yes, is no\n")
+
+
+def test_what_a_baseline_has_already_is_no_failure_in_xml_and_in_sarif(kept):
+    text = kept["check"][1]
+    was = changed(text, standing(0, "FAIL"))
+    for now, skipped, level in ((was, 1, "none"), (json.loads(text), 0, "none")):
+        suite = ET.fromstring(exchange.junit(now, None, compared("check", was, now)).encode())  # noqa: S314
+        assert (suite.get("failures"), suite.get("skipped")) == ("0", str(skipped))
+        result = json.loads(exchange.sarif(now, None, compared("check", was, now)))["runs"][0]["results"][0]
+        assert (result["level"], result["baselineState"]) == (level, "unchanged" if skipped else "updated")
+    worse = compared("check", json.loads(text), was)
+    assert ET.fromstring(exchange.junit(was, None, worse).encode()).get("failures") == "2"  # noqa: S314
+    result = json.loads(exchange.sarif(was, None, worse))["runs"][0]["results"][0]
+    assert (result["level"], result["baselineState"]) == ("error", "updated")
 
 
 def cells(name, document):

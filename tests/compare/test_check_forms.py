@@ -27,6 +27,7 @@ from reference.problems.families import find_family
         (people.Stepper, "class", {"order": 4}),
         (people.Advancing, "class", {"order": 2}),
         (people.Leapfrog, "class", {"order": 2}),
+        (people.Formula, "timed", {"order": 4}),
         (people.for_second_order_alone, "timed", {"order": 4}),
         (people.states_one_after_another, "generator", {"order": 4}),
         (people.times_and_states, "generator", {"order": 4}),
@@ -46,6 +47,24 @@ def test_a_class_that_keeps_the_time_of_a_step_fails_where_the_time_enters():
     assert found.claims_hold is False
     assert found.still.value == pytest.approx(4, abs=0.1)
     assert found.swinging.value == pytest.approx(1, abs=0.1)
+
+
+@pytest.mark.parametrize("name", ["times_and_states", "over_a_span", "Formula"])
+def test_every_form_is_found_by_its_name(name):
+    assert compare.check(loaded(f"{people.__file__}:{name}"), order=4).claims_hold
+
+
+@pytest.mark.parametrize("integrator", [people.doubly, people.Doubly])
+def test_of_twice_the_step_nothing_holds_in_any_form(integrator):
+    found = compare.check(integrator, order=2, reversible=True)
+    assert [one.standing for one in found.verdicts] == ["FAIL", "FAIL"]
+    assert all("a constant slope is advanced by 2 h" in str(one) for one in found.verdicts)
+
+
+def test_a_whole_integrator_goes_back_where_falling_times_are_no_mistake():
+    assert compare.check(people.over_a_span, order=4, backward=True).claims_hold
+    found = compare.check(people.in_so_many_steps, order=4, backward=True)
+    assert [one.standing for one in found.verdicts] == ["PASS", "PASS"]
 
 
 def test_an_equation_of_its_own_is_that_of_the_problem():
@@ -83,6 +102,10 @@ def of_something(f, t_span, y0, colour):
     return f, t_span, y0, colour
 
 
+def by_its_name(f, y, *, h):
+    return y + h * f(y)
+
+
 def three_states(f, y0, h):
     yield from [y0, y0 + h * f(y0)]
 
@@ -99,7 +122,9 @@ def own_times(fun, t_span, y0, h):
         (lambda f, y: f(y), "has the arguments f, y, and no step"),
         (NoStep, "is a class without a method step or advance or do_step"),
         (NoState, "has no state; one of y, state, u, x, or q and p, is accepted"),
-        (of_something, "an argument colour, of which nothing is known; f, t_span, y0, t_eval, h, n are accepted"),
+        (of_something, "an argument colour, which it is not given; f, t_span, y0, t_eval, h, n are accepted"),
+        (people.at_times_of_its_own, "gave the states at 9 times of its own"),
+        (by_its_name, "takes h by its name alone; arguments by their places are accepted"),
         (three_states, "yielded 2 states where 9 were asked for"),
         (own_times, "gave the states at 7 times of its own, where 9 from 0 to 0.8 were asked for"),
     ],
@@ -108,6 +133,11 @@ def test_what_cannot_be_called_is_one_sentence(integrator, says):
     with pytest.raises(ValueError, match=says) as caught:
         compare.check(integrator, order=1)
     assert "\n" not in str(caught.value)
+
+
+def test_a_form_by_itself_takes_no_other():
+    with pytest.raises(ValueError, match="form is 'separable' for a generator, which is one by itself; none"):
+        compare.check(people.times_and_states, order=4, form="separable")
 
 
 def test_a_step_of_its_own_on_a_problem_in_time_takes_the_time():

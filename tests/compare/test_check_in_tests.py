@@ -11,7 +11,8 @@ import pytest
 
 import compare
 from compare.__main__ import main
-from compare.claims import exchange
+from compare.baseline import document_of
+from compare.claims import exchange, show
 from reference import Flow, Pendulum
 from reference.problems.families import find_family
 
@@ -154,7 +155,7 @@ def test_junit_has_a_case_a_claim(capsys):
     suites = parsed(out)
     cases = suites.findall("./testsuite/testcase")
     assert code == 1
-    assert suites.attrib == {"name": "horologium check", "tests": "2", "failures": "2"}
+    assert suites.attrib == {"name": "horologium check", "tests": "2", "failures": "2", "skipped": "0"}
     assert [case.attrib["name"] for case in cases] == ["order 2", "symplectic"]
     assert {case.attrib["file"] for case in cases} == {ODDITIES.relative_to(Path.cwd()).as_posix()}
     line = ODDITIES.read_text(encoding="utf-8").splitlines()[int(cases[0].attrib["line"]) - 1]
@@ -177,8 +178,9 @@ def test_sarif_has_a_result_a_claim_at_the_line_of_the_step(capsys):
 
 def test_a_claim_that_holds_is_a_pass_in_both():
     found = compare.check(midpoint, order=2)
-    assert parsed(exchange.junit(found)).find("./testsuite/testcase/failure") is None
-    (result,) = json.loads(exchange.sarif(found))["runs"][0]["results"]
+    document = document_of(show.page(found))
+    assert parsed(exchange.junit(document)).find("./testsuite/testcase/failure") is None
+    (result,) = json.loads(exchange.sarif(document))["runs"][0]["results"]
     assert (result["kind"], result["level"]) == ("pass", "none")
     assert "locations" not in result
     assert exchange.place_of(len) is None

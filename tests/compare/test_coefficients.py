@@ -43,6 +43,14 @@ def test_the_coefficient_that_is_off_is_named(method, array, place, value, says)
     assert said(changed(method, array, place, value), find(method).order) == says
 
 
+def test_a_weight_that_goes_with_h_and_its_square_is_named():
+    def step(f, y, h):
+        slope = f(y)
+        return y + h * slope + h * h / 2 * (f(y + h * slope) - slope)
+
+    assert said(step, 2) == "b_1 goes in part with h^2, where it should go with h"
+
+
 def test_a_known_method_has_no_slip():
     for name in ("euler", "rk4", "dopri5", "dop853"):
         method = find(name)

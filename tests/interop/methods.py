@@ -10,7 +10,10 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import Any
 
-__all__ = ["EXPLAINED", "METHODS", "Method"]
+__all__ = ["EXPLAINED", "METHODS", "TABLES", "Method"]
+
+TABLES = ("nodepy", "class_table", "torchdiffeq_table")
+"""Builders that take a table of coefficients from a package, and march it themselves."""
 
 
 @dataclass(frozen=True)
@@ -51,7 +54,6 @@ NODEPY = of(
     """
     FE  order=1
     BE  order=1
-    SSP22  order=2
     SSP22star  order=2
     Heun22  order=2
     MTE22  order=2
@@ -76,7 +78,6 @@ NODEPY = of(
     Merson43  order=4 estimate=3
     Fehlberg43  order=4 estimate=3
     Soderlind43  order=4 estimate=3
-    Söderlind43  order=4 estimate=3
     Zonneveld43  order=4 estimate=3
     Fehlberg45  order=5 estimate=4
     CK5  order=5 estimate=4

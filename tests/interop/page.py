@@ -7,13 +7,14 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
 
-from interop.methods import EXPLAINED, METHODS
+from interop.methods import EXPLAINED, METHODS, TABLES
 
 HEAD = """# What methods of other packages claim, and what is measured
 
 Claims are those of each package: of its documentation, its names and its attributes.
 The table is laid out as `make interop` prints it; [interop.md](interop.md) says how a method becomes what is judged.
 Of {count} methods {good} hold all that their packages claim of them; what is no PASS is explained below the table.
+Of {tables} it is the table of coefficients that is judged, marched by a loop of the tests: {packages}.
 
 | package | method | claim | verdict | measured |
 |---|---|---|---|---|
@@ -26,7 +27,10 @@ def page(lines: list[str]) -> str:
     good = sum((one.package, one.name) not in bad for one in METHODS)
     reasons = [f"- {package} {name}: {reason}" for (package, name, _), reason in EXPLAINED.items()]
     told = "\n".join(dict.fromkeys(reasons))
-    return f"{HEAD.format(count=len(METHODS), good=good)}{chr(10).join(lines)}\n\n{told}\n"
+    tables = [one.package for one in METHODS if one.builder in TABLES]
+    packages = ", ".join(f"{tables.count(package)} of {package}" for package in dict.fromkeys(tables))
+    head = HEAD.format(count=len(METHODS), good=good, tables=len(tables), packages=packages)
+    return f"{head}{chr(10).join(lines)}\n\n{told}\n"
 
 
 if __name__ == "__main__":

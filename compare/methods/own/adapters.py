@@ -24,7 +24,7 @@ __all__ = ["adapted", "hold_times", "solution_of", "with_arguments"]
 
 LEFT = ("h", "count", "grid", "end", "t")
 """Roles of arguments that have a default and are given nevertheless."""
-MADE = ("f", "t", "y", "h", "end", "count")
+MADE = ("f", "t", "y", "h", "end", "count", "span")
 """Roles of what a class or a generator is made with."""
 SOLVED = ("f", "span", "y", "grid", "h", "count")
 """And of what a solver is called with."""
@@ -43,9 +43,15 @@ def adapted(function: Callable[..., Any], form: str | None = None) -> tuple[Call
         ValueError: it has arguments of other kinds, or ``form`` is none.
     """
     whole = Form("integrator", ("f", "y", "grid"))
+    generates = inspect.isgeneratorfunction(inspect.unwrap(function) if callable(function) else function)
+    if form is not None and (generates or inspect.isclass(function)):
+        kind = "generator" if generates else "class"
+        raise ValueError(f"form is {form!r} for a {kind}, which is one by itself; none is accepted.")
+    if inspect.isclass(function) and (steps := _steps_of(function)) is not None:
+        return steps
     if inspect.isclass(function):
         return _Made(function).integrate, Form("class", whole.roles)
-    if inspect.isgeneratorfunction(inspect.unwrap(function) if callable(function) else function):
+    if generates:
         return _generated(function), Form("generator", whole.roles)
     if form is None and callable(function) and _spanned(function):
         return _solved(function), Form("solver", whole.roles)
@@ -83,12 +89,29 @@ def _roles(function: Callable[..., Any], roles: Sequence[str]) -> dict[str, str]
             accepted = ", ".join(
                 {"y": "y0", "span": "t_span", "grid": "t_eval", "count": "n"}.get(role, role) for role in roles
             )
-            raise ValueError(f"it takes an argument {name}, of which nothing is known; {accepted} are accepted.")
+            raise ValueError(f"it takes an argument {name}, which it is not given; {accepted} are accepted.")
         if role is not None and (needed or role in LEFT):
             found[name] = role
     if "y" not in found.values():
         raise ValueError(f"it has the arguments {', '.join(listed)}; one is the first state, y0.")
     return found
+
+
+def _steps_of(made: type) -> tuple[Callable[..., Any], Form] | None:
+    """Of a class made with f alone, whose method steps a state: that step and its form; None where it is no such."""
+    name = next((name for name in STEP if callable(getattr(made, name, None))), None)
+    roles = [role_of(one, ("f", "y")) for one in inspect.signature(made).parameters]
+    if name is None or roles != ["f"]:
+        return None
+    left = list(inspect.signature(getattr(made, name)).parameters.values())[1:]
+    f = inspect.Parameter("f", inspect.Parameter.POSITIONAL_ONLY)
+
+    def step(f: Any, *arguments: Any) -> Any:
+        return getattr(made(f), name)(*arguments)
+
+    step.__signature__ = inspect.Signature([f, *left])  # type: ignore[attr-defined]
+    step.__name__ = made.__name__
+    return step, form_of(step)
 
 
 def _called(function: Callable[..., Any], names: Mapping[str, str], values: Mapping[str, Any]) -> Any:
@@ -168,26 +191,31 @@ def _generated(function: Callable[..., Any]) -> Callable[..., Any]:
     names = _roles(function, MADE)
 
     def integrate(f: Any, y0: np.ndarray, grid: np.ndarray) -> np.ndarray:
-        states = _yielded(_called(function, names, _values(f, y0, grid)))
-        first = next(states, y0)
-        begun = [first] if np.array_equal(first, y0) else [y0, first]
-        found = [*begun, *islice(states, len(grid) - len(begun))]
+        start = grid[0], y0
+        items = _yielded(_called(function, names, _values(f, y0, grid)))
+        first = next(items, start)
+        begun = [first] if np.array_equal(first[1], y0) else [start, first]
+        found = [*begun, *islice(items, len(grid) - len(begun))]
         if len(found) < len(grid):
             raise MisuseError(
                 f"{integrate.__name__} yielded {len(found)} states where {len(grid)} were asked for; one a step is "
                 "accepted."
             )
-        return np.array(found)
+        times, states = zip(*found, strict=True)
+        if None not in times:
+            hold_times(np.array(times, dtype=float), grid, integrate.__name__)
+        return np.array(states)
 
     integrate.__name__ = str(getattr(function, "__name__", "generator"))
     return integrate
 
 
-def _yielded(items: Iterator[Any]) -> Iterator[np.ndarray]:
-    """The states of what is yielded, without their times."""
+def _yielded(items: Iterator[Any]) -> Iterator[tuple[Any, np.ndarray]]:
+    """What is yielded: the time, None where it is not told, and the state."""
     for item in items:
         timed = isinstance(item, (tuple, list)) and len(item) == 2 and np.ndim(item[0]) == 0 and np.ndim(item[1]) == 1
-        yield np.array(item[1] if timed else item, dtype=float)
+        time, state = item if timed else (None, item)
+        yield time, np.array(state, dtype=float)
 
 
 def _spanned(function: Callable[..., Any]) -> bool:

@@ -22,8 +22,8 @@ NAMES = {
     "h": "h dt step step_size stepsize delta_t tau eps",
     "t": "t tn t_n t0 time now",
     "grid": "t ts t_eval times time grid t_grid tspan t_span tgrid points",
-    "q": "q x theta position positions pos r",
-    "p": "p v omega velocity velocities vel momentum momenta",
+    "q": "q x theta position positions pos r q0 x0 r0",
+    "p": "p v omega velocity velocities vel momentum momenta p0 v0",
     "force": "force forces f a acc accel acceleration accelerations field",
     "gradient": "grad gradient grad_v gradv grad_u gradu grad_potential dv dvdq dv_dq du dudq du_dq",
     "span": "t_span tspan span interval t_interval t_bounds",
@@ -106,6 +106,7 @@ def form_of(function: Callable[..., Any], name: str | None = None) -> Form:
     found = _arguments(function)
     if found is None:
         return known[name or "step"]
+    _hold_positional(function)
     arguments = _with_those_that_matter(*found)
     candidates = [known[name]] if name else [form for form in FORMS if len(form.roles) == len(arguments)]
     fits = [form for form in candidates if len(form.roles) == len(arguments)]
@@ -137,6 +138,19 @@ def _arguments(function: Callable[..., Any]) -> tuple[list[str], list[str]] | No
     given = [one.name for one in parameters if one.kind in positional and one.default is not inspect.Parameter.empty]
     some = any(one.kind is inspect.Parameter.VAR_POSITIONAL for one in parameters)
     return None if some and len(named) < 3 else (named, given)
+
+
+def _hold_positional(function: Callable[..., Any]) -> None:
+    """Refuse an argument without a default that is given by its name alone.
+
+    Raises:
+        ValueError: there is one.
+    """
+    for one in inspect.signature(function).parameters.values():
+        if one.kind is one.KEYWORD_ONLY and one.default is one.empty:
+            raise ValueError(
+                f"the integrator takes {one.name} by its name alone; arguments by their places are accepted."
+            )
 
 
 def _with_those_that_matter(named: list[str], given: list[str]) -> list[str]:
@@ -201,8 +215,8 @@ def loaded(name: str) -> Callable[..., Any]:
 def _named(name: str, function: Callable[..., Any]) -> Callable[..., Any]:
     """The function under the name by which it was asked for; its own may be that of a closure or a lambda."""
 
-    def called(*arguments: Any) -> Any:
-        return function(*arguments)
+    def called(*arguments: Any, **others: Any) -> Any:
+        return function(*arguments, **others)
 
     functools.update_wrapper(called, function, assigned=(), updated=())  # the arguments are still those of the function
     called.__name__ = name
