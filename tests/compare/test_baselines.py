@@ -11,18 +11,17 @@ from copy import deepcopy
 from dataclasses import replace
 from functools import cache
 from pathlib import Path
-from types import SimpleNamespace
 from xml.etree import ElementTree as ET
 
 import numpy as np
 import pytest
+from uncontained import answered
 
 import compare
 from compare.__main__ import main
 from compare.baseline import Entry, Gate, Large, Rounding, Small, Standing, opened
-from compare.claims import exchange, inside
+from compare.claims import exchange
 from compare.claims import regression as of_check
-from compare.claims.contained import Answer
 from compare.files import regression as of_score
 from compare.files.limits import Limits
 from compare.report import regression as of_report
@@ -65,20 +64,15 @@ def check():
     return compare.check(verlet, order=2, symplectic=True)
 
 
-def check_without_a_process(patch):
+def measure_once(patch):
     """Let a contained check be one for all of them, in this process."""
-
-    def answered(options, form):
-        return Answer(**inside._answer(SimpleNamespace(say=lambda _: None), {"options": options, "form": form}))
-
-    measured = check()
     patch.setattr("compare.claims.contained.contained", answered)
-    patch.setattr("compare.claims.tried.check", lambda _step, **_options: measured)
+    patch.setattr("compare.claims.tried.check", lambda _step, **_options: check())
 
 
 @pytest.fixture
-def without_a_process(monkeypatch):
-    check_without_a_process(monkeypatch)
+def measured_once(monkeypatch):
+    measure_once(monkeypatch)
 
 
 @pytest.fixture(scope="module")
@@ -98,7 +92,7 @@ def kept(tmp_path_factory):
     for name, words in commands.items():
         with pytest.MonkeyPatch.context() as patch:
             printed = io.StringIO()
-            check_without_a_process(patch)
+            measure_once(patch)
             patch.setattr("sys.stdout", printed)
             assert main([*words, "--format", "json"]) == 0
         found[name] = (words, printed.getvalue())
@@ -266,7 +260,7 @@ def test_a_claim_that_failed_before_does_no_harm_and_a_new_one_that_fails_does(k
         assert of_check.exit_code(now, found) == code
 
 
-@pytest.mark.usefixtures("without_a_process")
+@pytest.mark.usefixtures("measured_once")
 def test_a_check_tells_the_comparison_in_json_and_beside_xml(kept, capsys):
     words, text = kept["check"]
     was = changed(text, lambda d: d["verdicts"].append({"claim": "x", "words": "gone", "standing": "FAIL"}))
@@ -507,7 +501,7 @@ def test_digits_on_scale_are_the_limit_and_not_those_near_a_zero():
         compare.assert_score(p, t, y, max_error=0)
 
 
-@pytest.mark.usefixtures("without_a_process")
+@pytest.mark.usefixtures("measured_once")
 def test_the_commands_of_the_workflow_that_is_documented_pass(capsys):
     page = (ROOT / "docs" / "score.md").read_text(encoding="utf-8")
     (workflow,) = re.findall(r"```yaml\n(.*?)```", page, re.DOTALL)

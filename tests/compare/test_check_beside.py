@@ -215,6 +215,7 @@ HERE = people.__file__
         (f"{HERE}:with_a_sign --gradients 1e-6", 1, ["gradients"]),
     ],
 )
+@pytest.mark.usefixtures("without_a_process")
 def test_the_command_line_claims_them_too(capsys, words, code, claims):
     assert main(["check", *words.split(), "--format", "json"]) == code
     found = json.loads(capsys.readouterr().out)

@@ -104,6 +104,7 @@ def test_more_than_claimed_is_more_than_the_interval(value, claim, more):
     assert ("more than claimed" in found.verdict) is more
 
 
+@pytest.mark.usefixtures("without_a_process")
 def test_a_step_is_called_what_the_user_called_it(capsys):
     """Not by the name of the closure that it is."""
     slip = Path(__file__).parent / "slips.py"

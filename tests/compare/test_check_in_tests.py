@@ -150,6 +150,7 @@ def verdicts_of(form, capsys, *claims):
     return code, capsys.readouterr().out
 
 
+@pytest.mark.usefixtures("without_a_process")
 def test_junit_has_a_case_a_claim(capsys):
     code, out = verdicts_of("junit", capsys, "--order", "2", "--symplectic")
     suites = parsed(out)
@@ -165,6 +166,7 @@ def test_junit_has_a_case_a_claim(capsys):
     assert "the momenta go against the force" in failure.text
 
 
+@pytest.mark.usefixtures("without_a_process")
 def test_sarif_has_a_result_a_claim_at_the_line_of_the_step(capsys):
     code, out = verdicts_of("sarif", capsys, "--order", "2")
     (run,) = json.loads(out)["runs"]

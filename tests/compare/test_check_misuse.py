@@ -204,6 +204,7 @@ def test_arguments_that_make_no_check_are_one_sentence(arguments, error, says):
         (["rk4_over_a_grid", "--order", "4", "--form", "integrator"], 0),
     ],
 )
+@pytest.mark.usefixtures("without_a_process")
 def test_the_exit_code_says_whether_the_claims_hold(words, code, capsys):
     assert main(["check", f"{SLIPS}:{words[0]}", *words[1:], "--format", "json"]) == code
     found = json.loads(capsys.readouterr().out)
@@ -211,6 +212,7 @@ def test_the_exit_code_says_whether_the_claims_hold(words, code, capsys):
     assert {"measured_order", "order_interval", "symplecticity_defect", "reversibility_defect", "verdict"} <= set(found)
 
 
+@pytest.mark.usefixtures("without_a_process")
 def test_the_text_begins_with_the_verdict_and_shows_the_errors(capsys):
     assert main(["check", f"{SLIPS}:forest_ruth_of_order_two", "--order", "4"]) == 1
     lines = capsys.readouterr().out.splitlines()
@@ -262,6 +264,7 @@ def test_a_module_that_cannot_be_imported_is_one_sentence(name, tmp_path, capsys
         ([f"{SLIPS}:adaptive", "--order", "3"], "chooses its own steps"),
     ],
 )
+@pytest.mark.usefixtures("without_a_process")
 def test_a_mistake_in_the_command_is_one_sentence_and_exit_code_2(words, says, capsys):
     assert main(["check", *words]) == 2
     out, err = capsys.readouterr()

@@ -137,6 +137,7 @@ def test_a_step_that_never_calls_f_has_a_verdict_without_any_claim():
     ("name", "claim", "code"),
     [("dop853", "8", 0), ("still", "1", 1), ("rk4_with_a_node_of_ten_digits", "4", 3)],
 )
+@pytest.mark.usefixtures("without_a_process")
 def test_the_exit_code_tells_what_fails_from_what_is_not_established(name, claim, code, capsys):
     assert main(["check", f"{ODDITIES}:{name}", "--order", claim, "--format", "json"]) == code
     found = json.loads(capsys.readouterr().out)

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import io
 import math
+from contextlib import redirect_stderr, redirect_stdout
 from itertools import pairwise
 
 import numpy as np
@@ -30,8 +32,18 @@ def drawings():
 
 
 @pytest.fixture(scope="module")
-def written():
-    return files()
+def commanded(tmp_path_factory):
+    """The folder into which the command line writes all figures, its exit code, and what it says."""
+    folder = tmp_path_factory.mktemp("figures") / "drawn"
+    out, err = io.StringIO(), io.StringIO()
+    with redirect_stdout(out), redirect_stderr(err):
+        code = main(["published", "figures", "--out", str(folder)])
+    return folder, code, out.getvalue(), err.getvalue()
+
+
+@pytest.fixture(scope="module")
+def written(commanded):
+    return {path.name: path.read_bytes() for path in commanded[0].iterdir()}
 
 
 def test_all_curves_of_figure_9_end_with_the_same_speed():
@@ -225,13 +237,18 @@ def test_every_axis_has_a_quantity_with_units(drawings):
             assert not any("[1]" in label for label in units)
 
 
-def test_the_command_line_writes_the_figures_the_same_bytes_every_time(tmp_path, capsys, written):
-    assert main(["published", "figures", "--out", str(tmp_path / "drawn")]) == 0
-    out, err = capsys.readouterr()
+def test_the_command_line_writes_the_figures(commanded):
+    folder, code, out, err = commanded
+    assert code == 0
     assert out == ""
     assert err.startswith("wrote report-figure-2.png, report-figure-2.svg, ")
-    assert err.endswith(f"into {tmp_path / 'drawn'}\n")
-    assert {path.name: path.read_bytes() for path in (tmp_path / "drawn").iterdir()} == written
+    assert err.endswith(f"into {folder}\n")
+
+
+def test_the_figures_are_the_same_bytes_every_time(written):
+    """But for figure 8, which is drawn as figure 13 is."""
+    again = files([name for name in FIGURES if name != "thesis-figure-8"])
+    assert again == {name: content for name, content in written.items() if not name.startswith("thesis-figure-8.")}
 
 
 def test_one_figure_can_be_drawn_alone_and_beside_a_table(tmp_path, capsys):
