@@ -14,7 +14,17 @@ from reference.names import printable
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
-__all__ = ["MAX_CALLS", "Exhausted", "MisuseError", "hosted", "kind_of", "real_numbers", "repeatable", "told"]
+__all__ = [
+    "MAX_CALLS",
+    "Exhausted",
+    "MisuseError",
+    "calling",
+    "hosted",
+    "kind_of",
+    "real_numbers",
+    "repeatable",
+    "told",
+]
 
 MAX_CALLS = 10_000
 """Calls of f that one step, or each time of a grid, may take."""
@@ -30,6 +40,22 @@ class MisuseError(ValueError):
 
 class Exhausted(BaseException):
     """A user's function asked for more than it may: no ``except Exception`` of its own keeps it."""
+
+
+@contextmanager
+def calling(name: str) -> Iterator[None]:
+    """Call a user's function of this name; its warnings of numbers go nowhere.
+
+    Raises:
+        MisuseError: it raised something, which the sentence repeats.
+    """
+    try:
+        with np.errstate(all="ignore"):
+            yield
+    except MisuseError:
+        raise
+    except (Exception, SystemExit) as error:
+        raise MisuseError(f"{name} raised {told(error)}.") from error
 
 
 @contextmanager
