@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, Protocol
 import numpy as np
 
 from compare.claims.frames import Exhausted, MisuseError
-from compare.march.trace import slopes_of
+from compare.march.trace import agree, slopes_of
 from compare.methods.own.hosting import real_numbers, repeatable
 from reference.arithmetic.compiler import hy
 
@@ -115,7 +115,6 @@ class Whole:
 
 TRACED_CALLS = 64
 """Calls of f in one step up to which its expressions are worth compiling."""
-AGREEMENT = 1e-12
 TRIALS = 8
 TIMES, TURNS = 10.0, (20, 1000)
 """Trials are at times up to the first, where that is between so many steps."""
@@ -146,14 +145,7 @@ class Lanes:
             MisuseError: the step gave no state.
         """
         self.field.calls = 0
-        found = self.candidate.step(self.field, y, h, t)
-        array = real_numbers(found, self.candidate.name)
-        if array.shape != y.shape:
-            raise MisuseError(
-                f"{self.candidate.name} returned an array of shape {array.shape} for a state of shape {y.shape}; "
-                "the same shape is accepted."
-            )
-        return array
+        return self.candidate.numbers(self.field, y, h, t)
 
 
 class Arrays:
@@ -287,5 +279,4 @@ def _trusted(
         found = engine.advance(*trial)
     except (MisuseError, Exhausted):
         return None
-    gap = np.abs(found - expected)
-    return engine if np.all(gap <= AGREEMENT * (1 + np.abs(expected))) else None
+    return engine if agree(found, expected) else None

@@ -17,8 +17,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from compare.claims.expansion import Expansion
+from compare.march.trace import compiled_rates
 from compare.measure.truth import errors_of_doubles
 from compare.methods.own.hosting import Exhausted, MisuseError
+from compare.methods.own.jitted import is_traced
+from compare.methods.own.rates import Rates
 from reference.arithmetic.compiler import hy
 from reference.arithmetic.namespaces import JAX, NUMPY, Heyoka
 from reference.once import cached_property
@@ -31,7 +34,7 @@ if TYPE_CHECKING:
     from reference.declaration import Invariant
     from reference.problem import Problem
 
-__all__ = ["Exhausted", "Field", "Frame", "MisuseError", "Scene", "is_traced", "nonzero"]
+__all__ = ["Exhausted", "Field", "Frame", "MisuseError", "Scene", "nonzero"]
 
 SYMBOLS = Heyoka()
 LONG = 2000
@@ -42,7 +45,6 @@ SPAN = 20
 """The order is measured over so many of the steps at which defects are: about one period."""
 SIGHTS = 8
 """Times at which the size of a motion is seen, and its compiled rates are held against plain ones."""
-AGREEMENT = 1e-12
 
 
 def nonzero(sizes: np.ndarray) -> np.ndarray:
@@ -50,77 +52,42 @@ def nonzero(sizes: np.ndarray) -> np.ndarray:
     return np.where(sizes > 0, sizes, 1.0)
 
 
-def is_traced(value: Any) -> bool:
-    """Whether it is one of JAX's arrays, or of their tracers."""
-    return type(value).__module__.partition(".")[0] in {"jax", "jaxlib"}
-
-
-class Field:
-    """f(y), or f(t, y), with the time in either place: an array or a sequence gives an array of the same shape.
+class Field(Rates):
+    """The right-hand side of a scene, on lanes and on series too.
 
     Attributes:
         calls: how often it was called.
-        timed: whether it was ever given a time.
         limit: calls after which Exhausted is raised.
     """
 
     def __init__(self, scene: Scene, limit: int, owner: Any = None) -> None:
         self.scene, self.limit, self._owner = scene, limit, owner
-        self._dimension = scene.dimension
+        self.dimension, self.positions = scene.dimension, scene.problem.positions
         self.calls = 0
-        self.timed = False
 
-    def __eq__(self, other: object) -> bool:
-        """Whether another is of the same scene and check: a step that JAX compiled for the one serves the other."""
-        return isinstance(other, Field) and other._owner is self._owner and other.scene == self.scene
+    @property
+    def key(self) -> Any:
+        """The scene, and who is tried on it."""
+        return id(self._owner), self.scene
 
-    def __hash__(self) -> int:
-        return hash((id(self._owner), self.scene))
-
-    def __call__(self, *arguments: Any) -> Any:
+    def of(self, t: Any, y: Any) -> Any:
         self.calls += 1
         if self.calls > self.limit:
             raise Exhausted(f"called f more than {self.limit} times")
-        if arguments and type(arguments[-1]) is not np.ndarray and any(map(is_traced, arguments)):
-            return self._traced_by_jax(arguments)
-        t, y = self.time_and_state(arguments)
-        if len(y) != self._dimension:
+        if t is None and not self.scene.problem.autonomous:
             raise MisuseError(
-                f"f was called with a state of shape {y.shape}; {self.scene.dimension} components along the first axis "
-                "are accepted."
+                f"the step gives f no time, on which {self.scene.problem!r} depends; f(t, y) is accepted, as in a "
+                "step (f, t, y, h)."
             )
-        if y.dtype == object:
-            series = next((part.home for part in (*y, t) if isinstance(part, Expansion)), None)
-            if series is not None:
-                return np.array(self.scene.rates(series, t, tuple(y)), dtype=object)
-            moment = hy.expression(float(t)) if isinstance(t, (int, float)) else t
-            return np.array(self.scene.rates(SYMBOLS, moment, tuple(y)), dtype=object)
-        return self.scene.evaluated(t, y)
-
-    def _traced_by_jax(self, arguments: tuple[Any, ...]) -> Any:
-        """The same of JAX's arrays, which may be tracers."""
-        import jax.numpy as jnp
-
-        t, y = self.time_and_state(arguments, jnp.asarray)
-        return jnp.stack([jnp.broadcast_to(rate, y.shape[1:]) for rate in self.scene.rates(JAX, t, tuple(y))])
-
-    def time_and_state(self, arguments: tuple[Any, ...], array: Any = np.asarray) -> tuple[Any, Any]:
-        """Of two arguments the one with more axes is the state."""
-        first = array(arguments[0]) if arguments else np.empty(0)
-        if len(arguments) == 1 and first.ndim:
-            if not self.scene.problem.autonomous:
-                raise MisuseError(
-                    f"the step gives f no time, on which {self.scene.problem!r} depends; f(t, y) is accepted, as in a "
-                    "step (f, t, y, h)."
-                )
-            return 0.0, first
-        second = array(arguments[1]) if len(arguments) == 2 else first
-        if first.ndim == second.ndim:
-            shapes = ", ".join(str(np.shape(argument)) for argument in arguments) or "none"
-            raise MisuseError(f"f was called with arguments of the shapes {shapes}; f(y) or f(t, y) is accepted.")
-        self.timed = True
-        t, y = (first, second) if first.ndim < second.ndim else (second, first)
-        return t[()], y
+        t = 0.0 if t is None else t
+        if is_traced(y):
+            return self.scene.rates(JAX, t, tuple(y))
+        if y.dtype != object:
+            return self.scene.evaluated(t, y)
+        series = next((part.home for part in (*y, t) if isinstance(part, Expansion)), None)
+        if series is not None:
+            return self.scene.rates(series, t, tuple(y))
+        return self.scene.rates(SYMBOLS, hy.expression(float(t)) if isinstance(t, (int, float)) else t, tuple(y))
 
 
 BINARY32 = Fraction(1, 1 << 24)
@@ -308,12 +275,9 @@ class Scene:
             return None
         variables = [hy.expression(f"y{i}") for i in range(self.dimension)]
         rates = self.rates(SYMBOLS, hy.expression("t"), tuple(variables))
-        outputs = [rate if isinstance(rate, hy.expression) else hy.expression(float(rate)) for rate in rates]
-        function: Callable[[np.ndarray], np.ndarray] = hy.cfunc(outputs, vars=[*variables, hy.expression("t")])
         times = np.arange(self._seen.shape[1]) / self.pace
-        found = function(np.ascontiguousarray(np.vstack([self._seen, times])))
-        plain = np.array(np.broadcast_arrays(*self.rates(NUMPY, times, tuple(self._seen))))
-        return function if np.all(np.abs(found - plain) <= AGREEMENT * (1 + np.abs(plain))) else None
+        plain = self.rates(NUMPY, times, tuple(self._seen))
+        return compiled_rates(rates, [*variables, hy.expression("t")], np.vstack([self._seen, times]), plain)
 
     def errors(self, times: Sequence[Fraction], y: np.ndarray) -> np.ndarray:
         """y - truth, [times, state]."""

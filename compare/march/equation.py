@@ -78,6 +78,7 @@ class BoundSystem:
         self.positions = problem.positions
         self.clock = clock_of(problem)
         self.time: Any = hy.expression(TIME) if isinstance(m, Heyoka) else 0.0
+        self.equation = problem.structure
         self.calls = 0
         self.initial = tuple(initial)
         self._problem: Any = problem

@@ -10,19 +10,20 @@ import copy
 import math
 import time
 from functools import lru_cache
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from compare.march.equation import BoundSystem, FormatArithmetic, plain_system
 from compare.march.lanes import CommonEquation, March, initial_invariants
-from compare.march.trace import TraceError, carried, compile_block, random_points
+from compare.march.trace import TraceError, agree, carried, compile_block, compiled_rates, random_points
 from compare.methods.kinds.compensated import Compensated
 from compare.methods.own.hosting import MAX_CALLS, Exhausted, MisuseError, hosted, repeatable
 from compare.methods.own.step_function import StepFunction
-from reference.arithmetic.compiler import hy, parameter_rows
+from reference.arithmetic.compiler import hy
 from reference.arithmetic.namespaces import Heyoka
 from reference.names import printable
+from reference.problem import NO_TIME
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
@@ -40,8 +41,6 @@ MOST_SAID = 120
 """Characters of what stands in the way that are repeated."""
 TRIAL_GRID = 16
 """Steps of the grid that a whole integrator is tried on."""
-AGREEMENT = 1e-12
-"""Compiled and plain rates differ by no more of their size, or of 1."""
 PART = 4096
 """Steps of which the states are held at a time."""
 LONGEST_GRID = 1 << 24
@@ -56,49 +55,43 @@ class CountedSystem(BoundSystem):
 
     def __init__(self, problem: Problem, fmt: Precision, parameters: np.ndarray) -> None:
         kept = 1 + len(problem.invariants)
-        names = dict(zip(problem.parameters, parameters[kept:], strict=True))
-        super().__init__(problem, FormatArithmetic(fmt), names, fmt, tuple(parameters[1:kept]))
-        self._values = np.array(list(names.values()), dtype=np.float64)
+        self._names = tuple(problem.parameters)
+        self.values = np.array(parameters[kept:], dtype=np.float64)
+        named = dict(zip(self._names, parameters[kept:], strict=True))
+        super().__init__(problem, FormatArithmetic(fmt), named, fmt, tuple(parameters[1:kept]))
         self._rates = _rates(CommonEquation.of(problem), fmt)
-        self._momenta = np.zeros(self.dimension - self.positions)
         self.limit = MAX_CALLS
 
     def derivative(self, y: State) -> State:
-        self._count()
-        return tuple(self._rates(np.array(y, dtype=np.float64), self._values))
+        return tuple(self._rates(np.array(y, dtype=np.float64), self.asked()))
 
-    def force(self, positions: State) -> State:
-        self._count()
-        state = np.concatenate([np.array(positions, dtype=np.float64), self._momenta])
-        return tuple(self._rates(state, self._values)[self.positions :])
+    def with_parameters(self, m: Any, y: State, values: Any) -> State:
+        """The rates in another arithmetic, with other parameters."""
+        found: State = self._problem.derivative(m, NO_TIME, y, dict(zip(self._names, values, strict=True)))
+        return found
 
-    def _count(self) -> None:
+    def asked(self) -> np.ndarray:
+        """The parameters, for one evaluation more."""
         self.calls += 1
         if self.calls > self.limit:
             raise Exhausted(f"called f more than {MAX_CALLS} times")
+        return self.values
 
 
 @lru_cache(maxsize=64)
-def _rates(equation: CommonEquation, fmt: Precision) -> Callable[[np.ndarray, np.ndarray], np.ndarray]:
-    """The right-hand side of one state, compiled, and held against the plain one."""
+def _rates(equation: CommonEquation, fmt: Precision) -> Callable[..., np.ndarray]:
+    """The right-hand side of one state with parameters, compiled, and held against the plain one."""
     problem = equation.problem
     variables = [hy.expression(name) for name in problem.state_names]
     symbols = {name: hy.par[i] for i, name in enumerate(problem.parameters)}
-    slopes = BoundSystem(problem, Heyoka(fmt.number), symbols, fmt, ()).derivative(tuple(variables))
-    outputs = [slope if isinstance(slope, hy.expression) else hy.expression(float(slope)) for slope in slopes]
-    function, rows = hy.cfunc(outputs, vars=variables, **fmt.compiler_options), parameter_rows(outputs)
-
-    def rates(y: np.ndarray, values: np.ndarray) -> np.ndarray:
-        found: np.ndarray = function(y, pars=values[:rows])
-        return found
-
-    states, parameters = random_points(problem, fmt, 1)
-    for y, column in zip(states.T, parameters.T, strict=True):
-        plain = np.array(plain_system(problem, fmt, column).derivative(tuple(y)), dtype=np.float64)
-        found = rates(y.copy(), column[1 + len(problem.invariants) :].copy())
-        if not np.all(np.abs(found - plain) <= AGREEMENT * (1 + np.abs(plain))):
-            raise TraceError(f"the compiled rates of {problem.name} are not its plain ones.")
-    return rates
+    rates = BoundSystem(problem, Heyoka(fmt.number), symbols, fmt, ()).derivative(tuple(variables))
+    states, rows = random_points(problem, fmt, 1)
+    plain = plain_system(problem, fmt, rows).derivative(tuple(states))
+    values = np.ascontiguousarray(rows[1 + len(problem.invariants) :])
+    found = compiled_rates(rates, variables, states, plain, values, **fmt.compiler_options)
+    if found is None:
+        raise TraceError(f"the compiled rates of {problem.name} are not its plain ones.")
+    return found
 
 
 class Lanewise:
@@ -256,8 +249,9 @@ def _obstacle(method: Method, equation: CommonEquation, fmt: Precision) -> str:
     rows = np.vstack([states, fmt.zeros((carried(problem), states.shape[1]))])
     out = fmt.zeros(rows.shape)
     block(rows, parameters, out)
-    same = np.abs(out[: len(states)] - expected) <= AGREEMENT * (1 + np.abs(expected))
-    return "" if np.all(same) and block.calls == calls[0] else "what it does depends on its values"
+    return (
+        "" if agree(out[: len(states)], expected) and block.calls == calls[0] else "what it does depends on its values"
+    )
 
 
 def _trials(problem: Problem, fmt: Precision) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

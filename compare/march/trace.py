@@ -22,7 +22,7 @@ from reference.arithmetic.compiler import hy, parameter_rows
 from reference.arithmetic.namespaces import Heyoka
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Callable, Sequence
 
     from compare.march.precision import Precision
     from compare.methods.kinds.protocol import Method, State
@@ -32,8 +32,10 @@ __all__ = [
     "Block",
     "Record",
     "TraceError",
+    "agree",
     "carried",
     "compile_block",
+    "compiled_rates",
     "entry_rows",
     "plain_block",
     "random_points",
@@ -47,6 +49,39 @@ def slopes_of(step: Sequence[Any], variables: Sequence[Any]) -> np.ndarray:
     return np.asarray(tensors.jacobian, dtype=object)
 
 
+def compiled_rates(
+    rates: Sequence[Any],
+    variables: Sequence[Any],
+    inputs: np.ndarray,
+    plain: Sequence[Any],
+    parameters: np.ndarray | None = None,
+    **options: Any,
+) -> Callable[..., np.ndarray] | None:
+    """Rates [rate, lanes] of inputs [variable, lanes], compiled; None where they differ from the plain ones of these.
+
+    Parameters are those up to the last that occurs.
+    """
+    outputs = [rate if isinstance(rate, hy.expression) else hy.expression(float(rate)) for rate in rates]
+    function, rows = hy.cfunc(outputs, vars=list(variables), **options), parameter_rows(outputs)
+
+    def evaluated(inputs: np.ndarray, parameters: np.ndarray | None = None) -> np.ndarray:
+        given = {} if parameters is None else {"pars": parameters[:rows]}
+        found: np.ndarray = function(inputs, **given)
+        return found
+
+    return (
+        evaluated
+        if agree(evaluated(np.ascontiguousarray(inputs), parameters), np.array(np.broadcast_arrays(*plain)))
+        else None
+    )
+
+
+def agree(found: np.ndarray, plain: np.ndarray) -> bool:
+    """Whether they differ by no more than AGREEMENT of their size, or of 1."""
+    return bool(np.all(np.abs(found - plain) <= AGREEMENT * (1 + np.abs(plain))))
+
+
+AGREEMENT = 1e-12
 Record = Literal["every", "last"]
 CHECK_LANES = 8
 

@@ -3,25 +3,20 @@
 from __future__ import annotations
 
 import sys
-from contextlib import nullcontext, redirect_stdout
-from dataclasses import dataclass, field, replace
+from contextlib import redirect_stdout
+from dataclasses import dataclass, replace
 from functools import cache
 from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
 from compare.methods.kinds.protocol import OneStep
-from compare.methods.own.adapters import adapted, hold_times, solution_of
-from compare.methods.own.hosting import (
-    MAX_CALLS,
-    Exhausted,
-    MisuseError,
-    hosted,
-    kind_of,
-    real_numbers,
-    repeatable,
-    told,
-)
+from compare.methods.own.adapters import adapted
+from compare.methods.own.hosting import MAX_CALLS, Exhausted, MisuseError, hosted, repeatable
+from compare.methods.own.integrator import Integrator
+from compare.methods.own.jitted import is_traced, told_jax
+from compare.methods.own.rates import Rates
+from reference.arithmetic.namespaces import JAX
 from reference.named import named
 
 if TYPE_CHECKING:
@@ -97,24 +92,15 @@ class StepFunction(OneStep):
         Raises:
             MisuseError: it fails on them, or gives no state of the same shape.
         """
-        state, clock = np.array(y), self.clock(system)
-        symbolic = state.dtype == object
-        time = system.time if clock is None else y[clock]
-        own = state if clock is None else np.delete(state, clock)
-        values: dict[str, Any] = {"f": _Rates(self, system), "y": own, "h": h if symbolic else float(h), "t": time}
-        if self.form.separable:
-            values |= {"q": own[: system.positions], "p": own[system.positions :]}
-            values |= {"force": _Forces(self, system), "gradient": _Gradients(self, system)}
-        with hosted(self.name) if symbolic else nullcontext():  # a march is hosted as a whole
-            found = self._called(values)
-        if self.form.separable:
-            found = self._joined(found, own)
-        new = np.asarray(found, dtype=object) if symbolic and found is not None else real_numbers(found, self.name)
-        if new.shape != own.shape:
-            raise MisuseError(
-                f"{self.name} returned an array of shape {new.shape} for a state of shape {own.shape}; the same shape "
-                "is accepted."
-            )
+        clock, symbolic = self.clock(system), np.array(y).dtype == object
+        time, own = _apart(y, clock)
+        time = system.time if clock is None else time
+        user, rates = self.user, _Rates(self, system)
+        if not symbolic:  # a march is hosted as a whole
+            new = user.numbers(rates, own, float(h), time)
+        else:
+            with hosted(self.name):
+                new = user.like(np.asarray(user.step(rates, own, h, time), dtype=object), own)
         return (tuple(new) if clock is None else (*new[:clock], time + h, *new[clock:])), ()
 
     def states(self, system: System, y: State, grid: np.ndarray) -> np.ndarray:
@@ -123,100 +109,68 @@ class StepFunction(OneStep):
         Raises:
             MisuseError: it fails on it, or gives no such states.
         """
-        state, clock = np.array(y), self.clock(system)
-        own = state if clock is None else np.delete(state, clock)
-        found, times = solution_of(self._called({"f": _Rates(self, system), "y": own.copy(), "grid": grid.copy()}))
-        if times is not None:
-            hold_times(real_numbers(times, self.name), grid, self.name)
-        array = real_numbers(found, f"{self.name} on {len(grid)} times")
-        if array.shape == (len(own), len(grid)) and len(own) != len(grid):
-            array = array.T
-        if array.shape != (len(grid), len(own)):
-            raise MisuseError(
-                f"{self.name} returned an array of shape {array.shape} for {len(grid)} times; "
-                f"({len(grid)}, {len(own)}) is accepted, a state for each time."
-            )
-        return array if clock is None else np.insert(array, clock, grid, axis=1)
+        clock = self.clock(system)
+        found = self.user.states(_Rates(self, system), _apart(y, clock)[1], grid)
+        return found if clock is None else np.insert(found, clock, grid, axis=1)
+
+    @property
+    def user(self) -> Integrator:
+        """The function, as it is called."""
+        return Integrator(self.function, self.form, self.name)
 
     def clock(self, system: System) -> int | None:
         """Where the time stands in the state, for a function that takes it apart."""
         return system.clock if self.form.timed or self.form.whole else None
 
-    def _called(self, values: dict[str, Any]) -> Any:
-        try:
-            return self.function(*self.form.arguments(values))
-        except MisuseError:
-            raise
-        except (Exception, SystemExit) as error:
-            raise MisuseError(f"{self.name} raised {told(error)}.") from error
 
-    def _joined(self, found: Any, state: np.ndarray) -> np.ndarray:
-        """The new positions and momenta of a separable step as one state."""
-        if not isinstance(found, (tuple, list, np.ndarray)) or len(found) != 2:
-            raise MisuseError(
-                f"{self.name} returned {kind_of(found)}; the new positions and momenta (q, p) are accepted."
-            )
-        if state.dtype == object:
-            return np.concatenate([np.atleast_1d(np.asarray(part, dtype=object)) for part in found])
-        return np.concatenate([real_numbers(part, self.name).ravel() for part in found])
+def _apart(y: State, clock: int | None) -> tuple[Any, np.ndarray]:
+    """The time that stands in a state, and the state without it."""
+    state = np.array(y)
+    return (None, state) if clock is None else (y[clock], np.delete(state, clock))
 
 
-class _Rates:
-    """f(y), or f(t, y) with the time in either place: an array or a sequence gives an array of the same shape."""
+class _Rates(Rates):
+    """Those of a system.
 
-    def __init__(self, own: StepFunction, system: System) -> None:
+    What JAX compiles asks the latest for its parameters at each call, which is counted: so it is compiled once.
+    """
+
+    latest: ClassVar[Any]
+
+    def __init__(self, own: StepFunction, system: Any) -> None:
         self._own, self._system, self._clock = own, system, own.clock(system)
-        self._dimension = system.dimension - (self._clock is not None)
+        self.dimension, self.positions = system.dimension - (self._clock is not None), system.positions
+        _Rates.latest = system
 
-    def __call__(self, *arguments: Any) -> np.ndarray:
-        if len(arguments) == 1:
-            return self._of(self._system.time, np.asarray(arguments[0]), timed=False)
-        parts = [np.asarray(argument) for argument in arguments]
-        if len(parts) != 2 or parts[0].ndim == parts[1].ndim:
-            shapes = ", ".join(str(part.shape) for part in parts) or "none"
-            raise MisuseError(f"f was called with arguments of the shapes {shapes}; f(y) or f(t, y) is accepted.")
-        time, y = sorted(parts, key=lambda part: part.ndim)
-        return self._of(time[()], y, timed=True)
+    @property
+    def key(self) -> Any:
+        """The method and the equation, whatever its parameters."""
+        return self._own, self._system.equation
 
-    def _of(self, time: Any, y: np.ndarray, *, timed: bool) -> np.ndarray:
-        if y.shape != (self._dimension,):
+    def of(self, t: Any, y: Any) -> Any:
+        if y.ndim != 1:
             raise MisuseError(
-                f"{self._own.name} called f with a state of shape {y.shape}; a state of {self._dimension} components "
+                f"{self._own.name} called f with a state of shape {y.shape}; a state of {self.dimension} components "
                 "is accepted."
             )
-        if self._system.clock is not None and timed != (self._clock is not None):
-            told = "the time, which stands in its state" if timed else "no time"
-            raise MisuseError(f"{self._own.name} gives f {told}; f{'(y)' if timed else '(t, y)'} is accepted.")
-        dtype: Any = object if y.dtype == object else np.float64
-        full = tuple(y) if self._clock is None else (*y[: self._clock], time, *y[self._clock :])
-        slopes = list(self._system.derivative(full))
+        if self._system.clock is not None and (t is None) != (self._clock is None):
+            told = "no time" if t is None else "the time, which stands in its state"
+            raise MisuseError(f"{self._own.name} gives f {told}; f{'(t, y)' if t is None else '(y)'} is accepted.")
+        full = tuple(y) if self._clock is None else (*y[: self._clock], t, *y[self._clock :])
+        if is_traced(y):
+            values = told_jax(_asked_of_the_latest, len(self._system.values))
+            slopes = list(self._system.with_parameters(JAX, full, values))
+        else:
+            slopes = list(self._system.derivative(full))
         if self._clock is not None:
             del slopes[self._clock]
-        return np.array(slopes, dtype=dtype)
+        return slopes
 
 
-class _Forces:
-    """force(q): the rates of the momenta, of the shape of q."""
-
-    def __init__(self, own: StepFunction, system: System) -> None:
-        self._own, self._system = own, system
-
-    def __call__(self, q: Any) -> np.ndarray:
-        positions = np.asarray(q)
-        if positions.size != self._system.positions:
-            raise MisuseError(
-                f"{self._own.name} called force with an array of shape {positions.shape}; {self._system.positions} "
-                "positions are accepted."
-            )
-        dtype: Any = object if positions.dtype == object else np.float64
-        return np.array(self._system.force(tuple(positions.ravel())), dtype=dtype).reshape(positions.shape)
-
-
-class _Gradients(_Forces):
-    """grad_V(q): the slopes of the potential, of the shape of q."""
-
-    def __call__(self, q: Any) -> np.ndarray:
-        return -super().__call__(q)
+def _asked_of_the_latest() -> np.ndarray:
+    """The parameters of the system on which the step is that runs now, for one evaluation."""
+    found: np.ndarray = _Rates.latest.asked()
+    return found
 
 
 def method(
@@ -280,24 +234,28 @@ def method_at(home: str, order: int | None, name: str) -> StepFunction:
     return own
 
 
-@dataclass
 class _Trial:
     """y1' = y2, y2' = -y1 - y1^3: what a function is tried on before anything else."""
 
-    dimension: int = 2
-    positions: int = 1
-    clock: None = None
-    time: float = 0.0
-    calls: int = field(default=0)
+    dimension, positions, clock, time = 2, 1, None, 0.0
+    equation = "y'' = -y - y^3"
+    values = (1.0,)
 
-    def derivative(self, y: State) -> State:
-        return (y[1], *self.force(y[:1]))
+    def __init__(self) -> None:
+        self.calls = 0
 
-    def force(self, positions: State) -> State:
+    def asked(self) -> np.ndarray:
+        """The parameters, for one evaluation."""
         self.calls += 1
         if self.calls > MAX_CALLS:
             raise Exhausted(f"called f more than {MAX_CALLS} times")
-        return (-positions[0] - positions[0] ** 3,)
+        return np.array(self.values)
+
+    def with_parameters(self, _: Any, y: State, values: Any) -> State:
+        return y[1], -values[0] * (y[0] + y[0] ** 3)
+
+    def derivative(self, y: State) -> State:
+        return self.with_parameters(None, y, self.asked())
 
 
 START, STEP, GRID = (1.0, 0.5), 0.125, 8
