@@ -35,18 +35,18 @@ def ran(tree: Path, *words: str) -> str:
 
 
 def test_a_method_is_one_file_that_is_touched(tree: Path) -> None:
-    (table,) = re.findall(r"```python\n(RALSTON3 = .*?)```", GUIDE, re.DOTALL)
+    (table,) = re.findall(r"```python\n(HEUN3 = .*?)```", GUIDE, re.DOTALL)
     home = tree / "compare" / "methods" / "explicit.py"
     text = home.read_text(encoding="utf-8")
     assert text.count("EXPLICIT = (\n    ") == 1
-    home.write_text(text.replace("EXPLICIT = (\n    ", f"{table}\nEXPLICIT = (\n    RALSTON3, "), encoding="utf-8")
-    assert "ralston3" in ran(tree, "compare", "list")
-    shown = json.loads(ran(tree, "compare", "show", "ralston3", "--format", "json"))
+    home.write_text(text.replace("EXPLICIT = (\n    ", f"{table}\nEXPLICIT = (\n    HEUN3, "), encoding="utf-8")
+    assert "heun3" in ran(tree, "compare", "list")
+    shown = json.loads(ran(tree, "compare", "show", "heun3", "--format", "json"))
     assert shown["proven_order"] == shown["order"] == 3
-    words = ("--methods", "ralston3,rk4", "--n", "256,512,1024,2048", "--format", "json")
+    words = ("--methods", "heun3,rk4", "--n", "256,512,1024,2048", "--format", "json")
     orders = json.loads(ran(tree, "compare", "pendulum", *words))["tables"]["order"]
     fitted = {row["method"]: row["fitted_order"] for row in orders}
-    assert fitted["ralston3"] == pytest.approx(3, abs=0.05)
+    assert fitted["heun3"] == pytest.approx(3, abs=0.05)
 
 
 def test_a_problem_is_one_file_that_is_added(tree: Path) -> None:

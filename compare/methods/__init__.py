@@ -11,6 +11,7 @@ from compare.methods.conservative import CONSERVATIVE
 from compare.methods.embedded import EMBEDDED
 from compare.methods.explicit import EULER, EXPLICIT, HEUN, MIDPOINT, RK4
 from compare.methods.implicit import IMPLICIT, IMPLICIT_MIDPOINT
+from compare.methods.many_stages import MANY_STAGES
 from compare.methods.multistep import MULTISTEP
 from compare.methods.nystrom import NYSTROM
 from compare.methods.own.step_function import method_at
@@ -38,6 +39,7 @@ __all__ = ["DEFAULT", "METHODS", "find", "own_methods"]
 METHODS: tuple[Method, ...] = (
     *EXPLICIT,
     *EMBEDDED,
+    *MANY_STAGES,
     *SYMPLECTIC,
     *COMPOSITIONS,
     *NYSTROM,

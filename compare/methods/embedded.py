@@ -1,10 +1,12 @@
 """Embedded pairs, each as printed in its source; with a fixed step they are explicit methods like any other.
 
-The pair of Tsitouras, whose coefficients are published as decimals of 16 digits.
+The pairs of Tsitouras and of Calvo, Montijano and Randez, whose coefficients are published as decimals of 16 digits and
+as fractions near to what they stand for, are the zeros of their order conditions beside what is printed.
 """
 
 from __future__ import annotations
 
+from math import prod
 from typing import TYPE_CHECKING, Any
 
 from compare.methods.explicit import line, lines
@@ -19,7 +21,18 @@ if TYPE_CHECKING:
     from compare.methods.order.algebraic import Coefficient
     from compare.methods.order.rooted_trees import Tree
 
-__all__ = ["BOGACKI_SHAMPINE32", "CASH_KARP54", "DOP853", "DORMAND_PRINCE54", "EMBEDDED", "FEHLBERG45", "TSITOURAS54"]
+__all__ = [
+    "BOGACKI_SHAMPINE32",
+    "BOGACKI_SHAMPINE54",
+    "CALVO_MONTIJANO_RANDEZ65",
+    "CASH_KARP54",
+    "DOP853",
+    "DORMAND_PRINCE54",
+    "EMBEDDED",
+    "FEHLBERG45",
+    "FEHLBERG78",
+    "TSITOURAS54",
+]
 
 PRINTED = {
     "c2": "0.161", "c3": "0.327", "c4": "0.9", "c5": "0.9800255409045097",
@@ -107,6 +120,86 @@ def _tableau() -> Tableau:
 
 TSITOURAS54 = _tableau()
 
+CALVO = {
+    "c2": "2/15", "c3": "1/5", "c4": "3/10", "c5": "14/25", "c6": "19/25", "c7": "35226607/35688279",
+    "a32": "3/20", "a43": "9/40",
+    "a52": "-60129073/52624712", "a53": "957436434/1378352377", "a54": "83886832/147842441",
+    "a62": "111022885/25716487", "a63": "108046682/101167669", "a64": "-141756746/36005461",
+    "a65": "73139862/60170633",
+    "a72": "-49252809/6452555", "a73": "-381680111/51572984", "a74": "879269579/66788831",
+    "a75": "-90453121/33722162", "a76": "111179552/157155827",
+    "a82": "-100523239/10677940", "a83": "-265574846/27330247", "a84": "317978411/18988713",
+    "a85": "-124494385/35453627", "a86": "86822444/100138635", "a87": "-12873523/724232625",
+    "b3": "57513011/201864250", "b4": "15587306/354501571", "b5": "71783021/234982865", "b6": "29672000/180480167",
+    "b7": "65567621/127060952", "b8": "-79074570/210557597",
+    "d3": "59452991/116050448", "d4": "-28398517/122437738", "d5": "56673824/137010559", "d6": "68003849/426673583",
+    "d7": "7097631/37564021", "d8": "-71226429/583093742", "d9": "1/20",
+}  # fmt: skip
+"""d are the embedded weights; what is printed of the first column follows from the other ones."""
+CALVO_KEPT = ("c2", "c3", "c4", "c5", "c6", "c7", "a32", "a43", "a54", "d9")
+"""The nodes and the other free parameters of such a pair, taken as printed."""
+
+
+def _calvo_table(values: Sequence[Any]) -> tuple[list[list[Any]], list[Any], list[Any]]:
+    """The rows of a, the weights b and the embedded ones that follow from the printed numbers, in any arithmetic."""
+    v = dict(zip(CALVO, values, strict=True))
+    rows: list[list[Any]] = [[], [v["c2"]]]
+    for i in range(3, 9):
+        row = [v.get(f"a{i}{j}", 0) for j in range(2, i)]
+        rows.append([(v[f"c{i}"] if i < 8 else 1) - sum(row[1:], row[0]), *row])
+    weights = [[0, *(v.get(f"{letter}{j}", 0) for j in range(3, 10))] for letter in "bd"]
+    b, embedded = ([1 - sum(others[1:], others[0]), *others] for others in weights)
+    return [*rows, b[:-1]], b, embedded
+
+
+def _calvo_conditions(values: Sequence[Any]) -> list[Any]:
+    """Quadratures of stages and of weights, sum_i b_i a_ij = b_j (1 - c_j), and what the orders need besides."""
+    rows, b, embedded = _calvo_table(values)
+    c = [0, *(sum(row[1:], row[0]) for row in rows[1:])]
+    squares, cubes = (_powers(c, k) for k in (2, 3))
+    stages = [3 * _dot(row, squares) - cubes[i] for i, row in enumerate(rows[:8]) if i > 3]
+    stages += [2 * _dot(row, c) - squares[i] for i, row in enumerate(rows[:8]) if i > 3]
+    quadratures = [(k + 1) * _dot(b, _powers(c, k)) - 1 for k in range(1, 6)]
+    quadratures += [(k + 1) * _dot(embedded, _powers(c, k)) - 1 for k in range(1, 5)]
+    columns = [[row[j] if j < len(row) else 0 for row in rows] for j in range(9)]
+    first = [_dot(b, columns[j]) - b[j] * (1 - c[j]) for j in (1, 4, 5, 6)]
+    second, third = ([_dot(row, vector) for row in rows] for vector in (columns[1], cubes))
+    b1, b2, embedded1 = _times(b, c), _times(b, squares), _times(embedded, c)
+    left = [_dot(b1, columns[1]), _dot(b2, columns[1]), _dot(b1, second), 24 * _dot(b1, third) - 1]
+    left += [_dot(embedded, columns[1]), _dot(embedded1, columns[1]), _dot(embedded, second)]
+    return [*stages, *quadratures, *first, *left, 20 * _dot(embedded, third) - 1]
+
+
+def _times(first: Sequence[Any], second: Sequence[Any]) -> list[Any]:
+    return [x * y for x, y in zip(first, second, strict=False)]
+
+
+def _powers(values: Sequence[Any], power: int) -> list[Any]:
+    return [prod([value] * power) for value in values]
+
+
+def _dot(first: Sequence[Any], second: Sequence[Any]) -> Any:
+    """The sum of products, as far as the shorter one goes."""
+    return sum(_times(first, second), 0)
+
+
+def _calvo() -> Tableau:
+    kept = [list(CALVO).index(name) for name in CALVO_KEPT]
+    values = refined("calvo_montijano_randez65", _calvo_conditions, tuple(CALVO.values()), kept, slack=263)
+    rows, b, embedded = _calvo_table(values)
+    return Tableau(
+        name="calvo_montijano_randez65",
+        order=6,
+        source="Calvo, Montijano and Rández 1990, Comput. Math. Appl. 20, 15",
+        a=tuple(tuple(Q(x) if isinstance(x, int) else x for x in row) for row in rows),
+        b=tuple(Q(x) if isinstance(x, int) else x for x in b),
+        embedded=(Embedded(5, tuple(Q(x) if isinstance(x, int) else x for x in embedded)),),
+        family="embedded",
+        aliases=("calvo65", "cmr6"),
+    )
+
+
+CALVO_MONTIJANO_RANDEZ65 = _calvo()
 
 FAMILY = "embedded"
 
@@ -168,6 +261,49 @@ DORMAND_PRINCE54 = Tableau(
     aliases=("dopri5", "rk45", "dp5"),
 )  # fmt: skip
 
+BOGACKI_SHAMPINE54 = Tableau(
+    name="bogacki_shampine54", order=5, source="Bogacki and Shampine 1996, Comput. Math. Appl. 32, 15",
+    a=lines(
+        "",
+        "1/6",
+        "2/27          4/27",
+        "183/1372      -162/343     1053/1372",
+        "68/297        -4/11        42/143           1960/3861",
+        "597/22528     81/352       63099/585728     58653/366080   4617/20480",
+        "174197/959244 -30942/79937 8152137/19744439 666106/1039181 -29421/29068 482048/414219",
+        "587/8064      0            4440339/15491840 24353/124800   387/44800    2152/5985     7267/94080",
+    ),
+    b=line("587/8064 0 4440339/15491840 24353/124800 387/44800 2152/5985 7267/94080 0"),
+    embedded=(
+        Embedded(4, line("2479/34992 0 123/416 612941/3411720 43/1440 2272/6561 79937/1113912 3293/556956")),
+    ),
+    family=FAMILY,
+    aliases=("bs54", "bs5"),
+)  # fmt: skip
+
+FEHLBERG78 = Tableau(
+    name="fehlberg78", order=7, source="Fehlberg 1968, NASA Technical Report R-287",
+    a=lines(
+        "",
+        "2/27",
+        "1/36       1/12",
+        "1/24       0    1/8",
+        "5/12       0    -25/16 25/16",
+        "1/20       0    0      1/4      1/5",
+        "-25/108    0    0      125/108  -65/27    125/54",
+        "31/300     0    0      0        61/225    -2/9    13/900",
+        "2          0    0      -53/6    704/45    -107/9  67/90     3",
+        "-91/108    0    0      23/108   -976/135  311/54  -19/60    17/6  -1/12",
+        "2383/4100  0    0      -341/164 4496/1025 -301/82 2133/4100 45/82 45/164 18/41",
+        "3/205      0    0      0        0         -6/41   -3/205    -3/41 3/41   6/41",
+        "-1777/4100 0    0      -341/164 4496/1025 -289/82 2193/4100 51/82 33/164 12/41 0 1",
+    ),
+    b=line("41/840 0 0 0 0 34/105 9/35 9/35 9/280 9/280 41/840 0 0"),
+    embedded=(Embedded(8, line("0 0 0 0 0 34/105 9/35 9/35 9/280 9/280 0 41/840 41/840")),),
+    family=FAMILY,
+    aliases=("rkf78", "fehlberg7"),
+)  # fmt: skip
+
 ROOT6 = root(6)
 
 
@@ -225,4 +361,7 @@ DOP853 = Tableau(
     aliases=("dormand_prince853", "dop8"),
 )  # fmt: skip
 
-EMBEDDED = (BOGACKI_SHAMPINE32, FEHLBERG45, CASH_KARP54, DORMAND_PRINCE54, TSITOURAS54, DOP853)
+EMBEDDED = (
+    BOGACKI_SHAMPINE32, FEHLBERG45, CASH_KARP54, DORMAND_PRINCE54, TSITOURAS54, BOGACKI_SHAMPINE54,
+    CALVO_MONTIJANO_RANDEZ65, FEHLBERG78, DOP853,
+)  # fmt: skip

@@ -38,7 +38,7 @@ __all__ = [
 
 DIGITS = 25
 """Significant digits of a decimal."""
-LONG_DENOMINATOR, MOST_PLACES = 10**5, 40
+LONG_DENOMINATOR, MOST_PLACES = 10**5, 80
 
 
 def closed_form(value: Coefficient) -> str:
@@ -51,6 +51,8 @@ def exact_form(value: Coefficient) -> str | None:
     """The number exactly, or None where it has no closed form."""
     if isinstance(value, (int, Fraction)):
         return _rational(Fraction(value))
+    if value.rational is not None:
+        return _rational(value.rational)
     return repr(value) if isinstance(value, Algebraic) else None
 
 
@@ -68,7 +70,7 @@ def decimal_form(value: Coefficient, digits: int = DIGITS) -> str:
     if isinstance(value, (int, Fraction)):
         text = exact_decimal(Fraction(value), digits)
         return text.rstrip("0").rstrip(".") if "." in text and "e" not in text else text
-    if isinstance(value, Algebraic) and value.rational is not None:
+    if value.rational is not None:
         return decimal_form(value.rational, digits)
     ((found,),) = ziv(
         lambda _: [[value.ball()]], lambda ball: decimal(interval(ball), digits), 1, 4 * digits + 40, repr(value)
@@ -154,6 +156,8 @@ def _formula(method: Method) -> Iterator[tuple[str, str]]:
 def _orders(method: Method) -> Iterator[tuple[str, Any]]:
     yield "order", method.order
     yield "proven order", proven_order(method)
+    if isinstance(method, Tableau) and method.residual:
+        yield "order conditions missed by at most", float(method.residual)
     if isinstance(method, Splitting) and method.nystrom:
         yield "proven order where velocities are not linear", order_of_splitting(replace(method, nystrom=False))
     if isinstance(method, Tableau) and method.embedded:

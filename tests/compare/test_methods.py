@@ -24,25 +24,42 @@ tables = pytest.mark.parametrize(
     "method", [method for method in METHODS if method.family != "multistep"], ids=lambda method: method.name
 )
 FLOAT128 = precision("float128")
-WIDER = {"taylor20": precision("mp:256")}
+WIDER = {name: precision("mp:256") for name in ("taylor20", "feagin12", "feagin14")}
 """The formats of methods that in binary128 come to rounding before their error falls as it does in the end."""
 STEPS = {
     "sofroniou_spaletta10": (64, 128, 256, 512),  # in more it reaches the rounding floor of binary128
     "tsitouras54": (1024, 2048, 4096, 8192, 16384),  # its leading error is so small that the next one lasts longer
+    "bogacki_shampine54": (1024, 2048, 4096, 8192, 16384),  # the same
+    "verner65": (128, 256, 512, 1024, 2048),
+    "verner87": (64, 128, 256, 512),
+    "verner98": (32, 64, 128, 256, 512),
+    "feagin10": (64, 128, 256, 512, 1024),
+    "feagin12": (128, 256, 512, 1024),
+    "feagin14": (64, 128, 256, 512),
     "taylor12": (32, 64, 128, 256, 512),  # rounding, as above
 }
 USUAL_STEPS = (256, 512, 1024, 2048, 4096)
+MOTIONS = {
+    "verner65": (1.0, Fraction(1, 2)),
+    "verner87": (2.5, Fraction(1, 2)),
+    "verner98": (0.5, Fraction(2)),
+    "feagin12": (2.0, Fraction(1, 2)),
+    "feagin14": (2.0, Fraction(1, 4)),
+}
+"""Amplitude and time where the leading error of a method shows that elsewhere is smaller than the next one."""
+USUAL_MOTION = (1.0, Fraction(2))
 
 
 @cache
-def course(n: int, fmt: Precision) -> Course:
-    return Course(Pendulum(1.0), n, Fraction(2), fmt)
+def course(n: int, fmt: Precision, amplitude: float, time: Fraction) -> Course:
+    return Course(Pendulum(amplitude), n, time, fmt)
 
 
 @tables
 def test_order_by_slope_in_extended_precision_is_the_declared_one(method: Method) -> None:
     fmt = WIDER.get(method.name, FLOAT128)
-    courses = [course(n, fmt) for n in STEPS.get(method.name, USUAL_STEPS)]
+    motion = MOTIONS.get(method.name, USUAL_MOTION)
+    courses = [course(n, fmt, *motion) for n in STEPS.get(method.name, USUAL_STEPS)]
     cells, _ = score_method(method, courses, fmt)
     fitted = fit_order(method, cells)
     assert fitted.cells_used == len(courses)
@@ -104,6 +121,8 @@ def test_the_families_of_the_list_are_there() -> None:
         "calvo_sanz_serna4", "pefrl", "blanes_moan4", "blanes_moan6", "yoshida6", "yoshida8", "kahan_li6", "kahan_li8",
         "sofroniou_spaletta10", "blanes_moan_srkn6b", "blanes_moan_srkn11b", "blanes_moan_srkn14a", "implicit_euler",
         "trapezoid", "implicit_midpoint", "gauss4", "gauss6", "radau3", "radau5", "lobatto_pair4",
+        "ralston3", "ralston4", "ssprk54", "ssprk104", "bogacki_shampine54", "verner65", "verner76", "verner87",
+        "verner98", "rk8713m", "fehlberg78", "feagin10", "feagin12", "feagin14", "calvo_montijano_randez65",
         "taylor4", "taylor8", "taylor12", "taylor20",
     }  # fmt: skip
 

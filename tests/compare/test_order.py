@@ -41,7 +41,18 @@ def test_every_pair_has_embedded_weights() -> None:
         "cash_karp54": (4,),
         "dormand_prince54": (4,),
         "tsitouras54": (4,),
+        "bogacki_shampine54": (4,),
+        "calvo_montijano_randez65": (5,),
+        "fehlberg78": (8,),
         "dop853": (5, 3),
+        "verner65": (5,),
+        "verner76": (6,),
+        "verner87": (7,),
+        "verner98": (8,),
+        "prince_dormand87": (7,),
+        "feagin10": (8,),
+        "feagin12": (10,),
+        "feagin14": (12,),
     }
 
 

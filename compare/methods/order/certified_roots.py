@@ -137,7 +137,12 @@ def _width(balls: Sequence[arb]) -> arb:
 
 
 def unit(text: str) -> Fraction:
-    """One unit of the last place of a decimal, such as 1/100 for "0.25"."""
+    """One unit of the last place of a decimal, such as 1/100 for "0.25"; of a fraction p/q, 1/q^2.
+
+    A fraction that is the best of those with a denominator so small is nearer than that to what it stands for.
+    """
+    if "/" in text:
+        return Fraction(1, Fraction(text).denominator ** 2)
     digits, _, exponent = text.lower().partition("e")
     return Fraction(10) ** (int(exponent or 0) - len(digits.partition(".")[2]))
 
@@ -151,6 +156,11 @@ class Linear:
     def __init__(self, zero: Zero, shares: Mapping[int, Fraction], constant: Fraction = Fraction(0)) -> None:
         self.zero, self.constant = zero, constant
         self.shares = {i: share for i, share in sorted(shares.items()) if share}
+
+    @property
+    def rational(self) -> Fraction | None:
+        """The number as a fraction, where it is one."""
+        return None if self.shares else self.constant
 
     def _scaled(self, factor: Fraction) -> Linear:
         return Linear(self.zero, {i: share * factor for i, share in self.shares.items()}, self.constant * factor)

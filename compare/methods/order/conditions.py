@@ -15,18 +15,20 @@ See E. Hairer, C. Lubich and G. Wanner, Geometric Numerical Integration (2006), 
 from __future__ import annotations
 
 from fractions import Fraction
-from functools import reduce
+from functools import cache, lru_cache, reduce
 from math import factorial
 from operator import mul
 from typing import TYPE_CHECKING, Any
 
-from flint import arb
+from flint import arb, fmpq
 
-from compare.methods.kinds.one_step import Splitting, Tableau
+from compare.methods.kinds.one_step import EXACT, Splitting, Tableau
 from compare.methods.kinds.partitioned import Partitioned
-from compare.methods.order.algebraic import Algebraic, Q, enclose
+from compare.methods.order.algebraic import Q, enclose
+from compare.methods.order.certified_roots import Linear
 from compare.methods.order.lyndon_words import coefficient, lyndon_words, nystrom_words
 from compare.methods.order.rooted_trees import ElementaryWeights, density, trees
+from compare.methods.order.stage_vectors import StageVectors
 from reference.arithmetic.precision import PrecisionError, ctx
 from reference.arithmetic.series import jet
 
@@ -100,7 +102,7 @@ def order_by_steps(method: Method) -> int:
 PROOF_BITS = 300
 NARROW_BITS = 100
 """A residual that is zero is known to be smaller than 2^-NARROW_BITS; one that is not is far larger."""
-LIMIT = 12
+LIMIT = 16
 """No order is looked for beyond it."""
 
 
@@ -116,14 +118,24 @@ def proven_order(method: Method) -> int | None:
     return own() if own is not None else None
 
 
-def order_of_tableau(method: Tableau, b: Sequence[Coefficient] | None = None) -> int:
+@cache
+def order_of_tableau(method: Tableau, b: tuple[Coefficient, ...] | None = None) -> int:
     """The order of a Runge-Kutta method, or of its stages with other weights, by Butcher's trees."""
+    numbers = [*(b or method.b), *(entry for row in method.matrix for entry in row)]
     with ctx.workprec(PROOF_BITS):
-        values = _numbers([*(b or method.b), *(entry for row in method.matrix for entry in row)])
-        size = method.stages
-        weights, entries = values[:size], values[size:]
-        matrix = [entries[i * size : (i + 1) * size] for i in range(size)]
-        return _largest(lambda order: _tree_residuals((weights,), (matrix,), order))
+        weights = _numbers(numbers, method.residual)[: method.stages]
+        vectors = _stage_vectors(method)
+        return _largest(lambda order: vectors.residuals(weights, order), method.residual)
+
+
+@lru_cache(maxsize=1)
+def _stage_vectors(method: Tableau) -> StageVectors:
+    """Of the method that was asked for last: they serve its embedded weights too."""
+    size, values = (
+        method.stages,
+        _numbers([*method.b, *(entry for row in method.matrix for entry in row)], method.residual),
+    )
+    return StageVectors([values[i * size : (i + 1) * size] for i in range(1, size + 1)])
 
 
 def order_of_partitioned(method: Partitioned) -> int:
@@ -156,28 +168,38 @@ def _tree_residuals(weights: Sequence[Sequence[Any]], matrices: Sequence[Any], o
         yield elementary.weight(weights[tree[0]], tree) * density(tree) - 1
 
 
-def _largest(residuals: Callable[[int], Iterator[Any]]) -> int:
-    """The order up to which all residuals vanish."""
-    return next(
-        (order - 1 for order in range(1, LIMIT + 1) if not all(_vanishes(value) for value in residuals(order))), LIMIT
-    )
+def _largest(residuals: Callable[[int], Iterator[Any]], most: Fraction = EXACT) -> int:
+    """The order up to which all residuals vanish, or are ``most`` at most."""
+    bound = enclose(most) if most else None
+    orders = range(1, LIMIT + 1)
+    return next((k - 1 for k in orders if not all(_vanishes(value, bound) for value in residuals(k))), LIMIT)
 
 
-def _vanishes(value: Any) -> bool:
-    """Whether a residual is zero.
+def _vanishes(value: Any, bound: arb | None) -> bool:
+    """Whether a residual is zero, or where there is a bound below it.
 
     Raises:
         PrecisionError: its ball is too wide to tell.
     """
     if not isinstance(value, arb):
         return bool(value == 0)
+    if bound is not None:
+        size = abs(value)
+        if not (size < bound or size > bound):
+            raise PrecisionError("a condition of order was met in balls too wide to decide it.")
+        return bool(size < bound)
     if value.contains(0) and not value.rad() < arb(2) ** -NARROW_BITS:
         raise PrecisionError("a condition of order was met in balls too wide to decide it.")
     return bool(value.contains(0))
 
 
-def _numbers(coefficients: Sequence[Coefficient]) -> list[Any]:
-    """The coefficients as they are where arithmetic on them is exact, else in balls."""
-    if all(isinstance(value, (int, Fraction, Algebraic)) for value in coefficients):
-        return list(coefficients)
-    return [0 if value == 0 else enclose(value) for value in coefficients]
+def _numbers(coefficients: Sequence[Coefficient], most: Fraction = EXACT) -> list[Any]:
+    """The coefficients in exact numbers; in balls where they have no exact form, or miss the conditions anyway."""
+    kinds = {type(value) for value in coefficients}
+    if most or Linear in kinds:
+        return [0 if value == 0 else enclose(value) for value in coefficients]
+    return (
+        [fmpq(x.numerator, x.denominator) if isinstance(x, Fraction) else x for x in coefficients]
+        if kinds <= {int, Fraction}
+        else list(coefficients)
+    )
