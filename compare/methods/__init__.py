@@ -14,6 +14,7 @@ from compare.methods.implicit import IMPLICIT, IMPLICIT_MIDPOINT
 from compare.methods.multistep import MULTISTEP
 from compare.methods.nystrom import NYSTROM
 from compare.methods.own.step_function import method_at
+from compare.methods.runge_kutta_nystrom import RUNGE_KUTTA_NYSTROM
 from compare.methods.symplectic import (
     POSITION_VERLET,
     RUTH3,
@@ -41,6 +42,7 @@ METHODS: tuple[Method, ...] = (
     *SYMPLECTIC,
     *COMPOSITIONS,
     *NYSTROM,
+    *RUNGE_KUTTA_NYSTROM,
     *IMPLICIT,
     *CONSERVATIVE,
     *MULTISTEP,

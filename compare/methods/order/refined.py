@@ -14,7 +14,7 @@ from flint import arb
 
 from compare.methods.kinds.one_step import Splitting, compose
 from compare.methods.order.certified_roots import Zero
-from compare.methods.order.lyndon_words import coefficient, lyndon_words, nystrom_words, odd_words
+from compare.methods.order.lyndon_words import coefficient, exponent, lyndon_words, nystrom_words, odd_words
 from reference.arithmetic.namespaces import BALL
 
 if TYPE_CHECKING:
@@ -83,7 +83,7 @@ def proven_splitting(
 
 
 def _splitting_conditions(layout: Callable[..., Flows], degrees: range, nystrom: bool, values: Values) -> list[Any]:
-    factors = [{kind: weight} for kind, weight in layout(*values)]
+    factors = [exponent(kind, weight) for kind, weight in layout(*values)]
     words = nystrom_words if nystrom else lyndon_words
     return [coefficient(word, factors) - 1 / arb(factorial(degree)) for degree in degrees for word in words(degree)]
 
@@ -109,7 +109,7 @@ def proven_composition(
 
 
 def _composition_conditions(degrees: range, values: Values) -> list[Any]:
-    factors = [{d: weight**d for d in range(1, degrees.stop, 2)} for weight in jump(*values)]
+    factors = [{(d,): weight**d for d in range(1, degrees.stop, 2)} for weight in jump(*values)]
     return [coefficient(word, factors) for degree in degrees for word in odd_words(degree)]
 
 
