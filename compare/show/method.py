@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 from compare.methods.kinds.multistep import LinearMultistep, PredictorCorrector
 from compare.methods.kinds.nystrom import RungeKuttaNystrom
-from compare.methods.kinds.one_step import Splitting, Stability, Tableau
+from compare.methods.kinds.one_step import Processed, Splitting, Stability, Tableau
 from compare.methods.kinds.partitioned import Partitioned
 from compare.methods.kinds.stormer import StormerCowell
 from compare.methods.order.algebraic import Algebraic
@@ -222,6 +222,9 @@ def _tables(method: Method) -> Iterator[Butcher | Rows]:
         for other in method.embedded:
             weights += [(f"b_bar, order {other.order}", other.b_bar), (f"b, order {other.order}", other.b)]
         yield Butcher("", method.c, method.matrix, tuple(weights))
+    elif isinstance(method, Processed):
+        yield Rows("processor, undone behind the kernel", ("flow", "weight"), method.processor)
+        yield Rows("kernel", ("flow", "weight"), method.kernel)
     elif isinstance(method, Splitting):
         yield Rows("flows, in the order in which they are applied", ("flow", "weight"), method.flows)
     elif isinstance(method, PredictorCorrector):

@@ -28,11 +28,13 @@ __all__ = [
     "Embedded",
     "Method",
     "OneStep",
+    "Processed",
     "Splitting",
     "Stability",
     "State",
     "System",
     "Tableau",
+    "around",
     "compose",
     "is_symmetric",
     "is_symplectic",
@@ -282,10 +284,14 @@ class Splitting(OneStep):
         return any(kind == "gradient" for kind, _ in self.flows)
 
     @property
+    def repeated(self) -> tuple[tuple[str, Coefficient], ...]:
+        """The flows that each further step adds to the work of a march: all of them."""
+        return self.flows
+
+    @property
     def stages(self) -> int:
         """Where the force is evaluated: a kick and a gradient beside it share it."""
-        kinds = [kind for kind, _ in self.flows]
-        return sum(kind != "drift" and before in {"drift", ""} for before, kind in pairwise(("", *kinds)))
+        return _stages(self.repeated)
 
     @cached_property
     def symmetric(self) -> bool:
@@ -295,7 +301,7 @@ class Splitting(OneStep):
     @property
     def fsal(self) -> bool:
         """Whether the last kick's force is the first kick's of the next step."""
-        return "drift" not in {self.flows[0][0], self.flows[-1][0]}
+        return "drift" not in {self.repeated[0][0], self.repeated[-1][0]}
 
     def evaluations(self, iterations: int) -> tuple[int, int]:  # noqa: ARG002
         """One fewer per step where the last kick's force is the first kick's of the next step."""
@@ -303,7 +309,7 @@ class Splitting(OneStep):
 
     def jacobians(self, iterations: int) -> int:  # noqa: ARG002
         """The derivatives of the force along itself, one a gradient, the last that of the next step where it can be."""
-        kinds = [kind for kind, _ in self.flows]
+        kinds = [kind for kind, _ in self.repeated]
         return kinds.count("gradient") - (self.fsal and "gradient" in kinds[:2] and kinds[-1] == "gradient")
 
     def step(self, system: System, y: State, h: Any, iterations: int = 0) -> tuple[State, State]:  # noqa: ARG002
@@ -320,6 +326,38 @@ class Splitting(OneStep):
             size = dt if kind == "kick" else dt * (h * h + h * h)
             momenta = tuple(p + size * f for p, f in zip(momenta, pull, strict=True))
         return positions + momenta, ()
+
+
+@dataclass(frozen=True)
+class Processed(Splitting):
+    """A kernel between a processor and its inverse: what a step of the kernel lacks of its order, the processor gives.
+
+    From step to step the inverse and the processor cancel: a march has the work of one kernel a step, and of both
+    processors once.  Here they are applied at every step, because each of its states is looked at.
+    """
+
+    processor: tuple[tuple[str, Coefficient], ...] = ()
+    kernel: tuple[tuple[str, Coefficient], ...] = ()
+
+    @property
+    def repeated(self) -> tuple[tuple[str, Coefficient], ...]:
+        """The kernel."""
+        return self.kernel
+
+    def evaluations(self, iterations: int) -> tuple[int, int]:
+        """Those of the kernel, and once besides those of the processor and of its inverse."""
+        own, once = super().evaluations(iterations)
+        return own, once + 2 * _stages(self.processor)
+
+
+def around(kernel: Sequence[tuple[str, Any]], processor: Sequence[tuple[str, Any]]) -> tuple[tuple[str, Any], ...]:
+    """The processor, the kernel and the inverse of the processor as flows of one step."""
+    return merged([*processor, *kernel, *((kind, -weight) for kind, weight in reversed(processor))])
+
+
+def _stages(flows: Sequence[tuple[str, Any]]) -> int:
+    kinds = [kind for kind, _ in flows]
+    return sum(kind != "drift" and before in {"drift", ""} for before, kind in pairwise(("", *kinds)))
 
 
 def merged(flows: Sequence[tuple[str, Any]]) -> tuple[tuple[str, Any], ...]:

@@ -25,7 +25,14 @@ from flint import arb
 from compare.methods.kinds.one_step import Splitting, Tableau
 from compare.methods.kinds.partitioned import Partitioned
 from compare.methods.order.algebraic import Algebraic, Q, enclose
-from compare.methods.order.lyndon_words import KICK, coefficient, exponent, lyndon_words, nystrom_words
+from compare.methods.order.lyndon_words import (
+    KICK,
+    coefficient,
+    exponent,
+    lyndon_words,
+    necessary_nystrom_words,
+    nystrom_words,
+)
 from compare.methods.order.nystrom_trees import NystromWeights, nystrom_density, nystrom_trees
 from compare.methods.order.rooted_trees import ElementaryWeights, density, trees
 from reference.arithmetic.precision import PrecisionError, ctx
@@ -169,9 +176,13 @@ def _word_residuals(
     """Of the words of a degree that have so many kicks; with two or fewer, Nystrom's words are all."""
     if method.symmetric and degree % 2 == 0:
         return
-    for word in nystrom_words(degree) if method.nystrom and kicks.stop > SMALL_KICKS else lyndon_words(degree):
+    reduced = method.nystrom and kicks.stop > SMALL_KICKS
+    words = necessary_nystrom_words(degree)[0] if reduced else lyndon_words(degree)
+    for word in words:
         if word.count(KICK) in kicks:
             yield coefficient(word, factors) * factorial(degree) - 1
+    if reduced:
+        nystrom_words(degree)  # raises where all of these do not decide
 
 
 def _tree_residuals(weights: Sequence[Sequence[Any]], matrices: Sequence[Any], order: int) -> Iterator[Any]:

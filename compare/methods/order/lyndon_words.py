@@ -24,6 +24,7 @@ __all__ = [
     "coefficient",
     "exponent",
     "lyndon_words",
+    "necessary_nystrom_words",
     "nystrom_words",
     "odd_words",
 ]
@@ -101,7 +102,6 @@ def _odd_sums(degree: int) -> Iterable[Word]:
             yield (first, *rest)
 
 
-@cache
 def nystrom_words(degree: int) -> tuple[Word, ...]:
     """Words whose coefficients decide the order where the velocity is linear in the momenta: 2, 1, 2, 2, 4, 5, 10, ...
 
@@ -110,8 +110,17 @@ def nystrom_words(degree: int) -> tuple[Word, ...]:
     independent on the Lie elements of the degree, which must be as many as there are beside the ideal.
 
     Raises:
-        ArithmeticError: such words are too few.
+        ArithmeticError: such words are too few, as they are in degree 9 and beyond.
     """
+    chosen, needed = necessary_nystrom_words(degree)
+    if len(chosen) != needed:
+        raise ArithmeticError(f"{len(chosen)} words decide degree {degree}, {needed} are needed.")
+    return chosen
+
+
+@cache
+def necessary_nystrom_words(degree: int) -> tuple[tuple[Word, ...], int]:
+    """Independent words of which none may fail, and how many would decide the degree."""
     elements = [_bracketed(word) for word in lyndon_words(degree)]
     chosen: list[Word] = []
     rows: list[list[int]] = []
@@ -122,9 +131,7 @@ def nystrom_words(degree: int) -> tuple[Word, ...]:
             rows.append(row)
     words = list(product(LETTERS, repeat=degree))
     ideal = _rank([[element.get(word, 0) for word in words] for element in _ideal(degree)])
-    if len(chosen) != len(elements) - ideal:
-        raise ArithmeticError(f"{len(chosen)} words decide degree {degree}, {len(elements) - ideal} are needed.")
-    return tuple(chosen)
+    return tuple(chosen), len(elements) - ideal
 
 
 def _outside_the_ideal(degree: int) -> Iterable[Word]:
