@@ -59,10 +59,8 @@ def lacking(method: Method, problem: Problem) -> str:
     """What a method needs that the problem has not, in words; "" where it fits."""
     if method.separable_only and not problem.positions:
         return f"needs positions apart from momenta; {problem.name} is not separable"
-    if method.opaque and method.separable_only and not problem.original.autonomous:
-        return f"gives its force no time, on which {problem.name} depends"
-    if method.opaque and method.separable_only and not _moves_by_momenta(problem):
-        return f"takes p for the rate of q, which it is not in {problem.name}"
+    if method.opaque and method.separable_only and (missing := _lacking_for_a_function(problem)):
+        return missing
     if method.second_order_only and not problem.second_order:
         return f"marches q'' = F(q), which {problem.name} is not"
     if method.linear_velocities_only and not _moves_linearly(problem):
@@ -70,6 +68,13 @@ def lacking(method: Method, problem: Problem) -> str:
     if method.family == "conservative" and not problem.invariants:
         return f"keeps an invariant, and {problem.name} has none"
     return ""
+
+
+def _lacking_for_a_function(problem: Problem) -> str:
+    """What a separable step of somebody else's needs that the problem has not."""
+    if not problem.original.autonomous:
+        return f"gives its force no time, on which {problem.name} depends"
+    return "" if _moves_by_momenta(problem) else f"takes p for the rate of q, which it is not in {problem.name}"
 
 
 @lru_cache(maxsize=256)

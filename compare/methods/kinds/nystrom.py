@@ -52,7 +52,7 @@ class RungeKuttaNystrom(OneStep):
     symplectic: ClassVar[bool] = False
     separable_only: ClassVar[bool] = True
     second_order_only: ClassVar[bool] = False
-    linear_velocities_only: ClassVar[bool] = True  # type: ignore[misc]
+    linear_velocities_only: ClassVar[bool] = True
 
     def __post_init__(self) -> None:
         size = len(self.c)

@@ -362,13 +362,10 @@ def _stages(flows: Sequence[tuple[str, Any]]) -> int:
 
 def merged(flows: Sequence[tuple[str, Any]]) -> tuple[tuple[str, Any], ...]:
     """The same flows with neighbours of one kind as one, a gradient behind the kick that it commutes with."""
-    found: list[tuple[str, Any]] = []
-    for drifts, group in groupby(flows, key=lambda flow: flow[0] == "drift"):
-        members = tuple(group)
-        for kind in ("drift",) if drifts else ("kick", "gradient"):
-            if weights := [weight for flow, weight in members if flow == kind]:
-                found.append((kind, sum(weights[1:], weights[0])))
-    return tuple(found)
+    groups = [tuple(group) for _, group in groupby(flows, key=lambda flow: flow[0] == "drift")]
+    kinds = ((group, kind) for group in groups for kind in ("drift", "kick", "gradient"))
+    weighed = ((kind, [weight for flow, weight in group if flow == kind]) for group, kind in kinds)
+    return tuple((kind, sum(weights[1:], weights[0])) for kind, weights in weighed if weights)
 
 
 def compose(

@@ -170,9 +170,7 @@ def _exponents(method: Splitting) -> list[dict[Word, Any]]:
     return [exponent(kind, weight) for (kind, _), weight in zip(method.flows, weights, strict=True)]
 
 
-def _word_residuals(
-    method: Splitting, factors: Sequence[dict[Word, Any]], kicks: range, degree: int
-) -> Iterator[Any]:
+def _word_residuals(method: Splitting, factors: Sequence[dict[Word, Any]], kicks: range, degree: int) -> Iterator[Any]:
     """Of the words of a degree that have so many kicks; with two or fewer, Nystrom's words are all."""
     if method.symmetric and degree % 2 == 0:
         return
