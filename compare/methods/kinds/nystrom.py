@@ -85,12 +85,6 @@ class RungeKuttaNystrom(OneStep):
         """Whether the last stage is evaluated where the next step begins."""
         return self.stages > 1 and self.c[-1] == 1 and self.matrix[-1] == self.b_bar
 
-    def proven_order(self) -> int:
-        """By Nystrom's trees."""
-        from compare.methods.order.conditions import order_of_nystrom
-
-        return order_of_nystrom(self)
-
     def evaluations(self, iterations: int) -> tuple[int, int]:  # noqa: ARG002
         """One fewer per step where the last stage is the first of the next step."""
         shared = int(self.fsal and self.stages - 1 in self.used)

@@ -22,6 +22,7 @@ from typing import TYPE_CHECKING, Any
 
 from flint import arb
 
+from compare.methods.kinds.nystrom import RungeKuttaNystrom
 from compare.methods.kinds.one_step import Splitting, Tableau
 from compare.methods.kinds.partitioned import Partitioned
 from compare.methods.order.algebraic import Algebraic, Q, enclose
@@ -41,7 +42,7 @@ from reference.arithmetic.series import jet
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
 
-    from compare.methods.kinds.nystrom import EmbeddedNystrom, RungeKuttaNystrom
+    from compare.methods.kinds.nystrom import EmbeddedNystrom
     from compare.methods.kinds.protocol import Method, State
     from compare.methods.order.algebraic import Coefficient
     from compare.methods.order.lyndon_words import Word
@@ -126,6 +127,8 @@ def proven_order(method: Method) -> int | None:
         return order_of_splitting(method)
     if isinstance(method, Partitioned):
         return order_of_partitioned(method)
+    if isinstance(method, RungeKuttaNystrom):
+        return order_of_nystrom(method)
     own = getattr(method, "proven_order", None)
     return own() if own is not None else None
 
