@@ -219,7 +219,8 @@ def _written(value: Any) -> str:
 def _known(*, splitting: bool) -> tuple[tuple[str, int, dict[str, Any]], ...]:
     """The coefficients of the methods that are known, by the same names."""
     if splitting:
-        return tuple((one.name, one.order, _of_flows(one)) for one in METHODS if isinstance(one, Splitting))
+        plain = [one for one in METHODS if isinstance(one, Splitting) and not one.linear_velocities_only]
+        return tuple((one.name, one.order, _of_flows(one)) for one in plain)
     found = []
     for one in METHODS:
         if isinstance(one, Tableau) and one.explicit:

@@ -110,6 +110,12 @@ class BoundSystem:
         self.calls += 1
         return _plain(self._problem.force(self._m, NO_TIME, self._read(positions), self._parameters))
 
+    def force_along(self, positions: State, direction: State) -> State:
+        """By dual numbers: of symbols, the derivative in symbols, which is compiled with the step."""
+        moving = [Dual(q, (slope,)) for q, slope in zip(self._read(positions), self._read(direction), strict=True)]
+        found = self._problem.force(DualArithmetic(self._m, 1), NO_TIME, moving, self._parameters)
+        return _plain(rate.slopes[0] if isinstance(rate, Dual) else self.number(Q(0)) for rate in found)
+
     def jet(self, y: State, order: int) -> list[State]:
         found = jet(
             self._m,

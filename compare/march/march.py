@@ -44,6 +44,8 @@ CLOCKED_RUNS, BRIEF = 3, 0.02
 """A march alone of less than BRIEF seconds is clocked this often."""
 WAITING = 256
 """Blocks whose last states wait to be kept."""
+LINEAR = 1e-12
+"""Of the sizes of velocities: by so much a sum of momenta may give others than their sum."""
 CONVERGED = 1000
 """A last iteration may change the state by this many roundings."""
 
@@ -57,15 +59,22 @@ def lacking(method: Method, problem: Problem) -> str:
     """What a method needs that the problem has not, in words; "" where it fits."""
     if method.separable_only and not problem.positions:
         return f"needs positions apart from momenta; {problem.name} is not separable"
-    if method.opaque and method.separable_only and not problem.original.autonomous:
-        return f"gives its force no time, on which {problem.name} depends"
-    if method.opaque and method.separable_only and not _moves_by_momenta(problem):
-        return f"takes p for the rate of q, which it is not in {problem.name}"
+    if method.opaque and method.separable_only and (missing := _lacking_for_a_function(problem)):
+        return missing
     if method.second_order_only and not problem.second_order:
         return f"marches q'' = F(q), which {problem.name} is not"
+    if method.linear_velocities_only and not _moves_linearly(problem):
+        return f"turns forces into velocities, which are not linear in the momenta in {problem.name}"
     if method.family == "conservative" and not problem.invariants:
         return f"keeps an invariant, and {problem.name} has none"
     return ""
+
+
+def _lacking_for_a_function(problem: Problem) -> str:
+    """What a separable step of somebody else's needs that the problem has not."""
+    if not problem.original.autonomous:
+        return f"gives its force no time, on which {problem.name} depends"
+    return "" if _moves_by_momenta(problem) else f"takes p for the rate of q, which it is not in {problem.name}"
 
 
 @lru_cache(maxsize=256)
@@ -75,6 +84,19 @@ def _moves_by_momenta(problem: Problem) -> bool:
     momenta = [(3 * k + 2) / 7 for k in range(problem.positions)]
     parameters = {name: float(value) for name, value in problem.parameters.items()}
     return [float(rate) for rate in split.velocity(NUMPY, momenta, parameters)] == momenta
+
+
+@lru_cache(maxsize=256)
+def _moves_linearly(problem: Problem) -> bool:
+    """Whether the velocities of a problem that splits are linear in its momenta, as is seen at some."""
+    split: Any = problem
+    parameters = {name: float(value) for name, value in problem.parameters.items()}
+    count = len(problem.state_names) - problem.positions
+    first, second = ([(part * k + 2) / 7 for k in range(count)] for part in (3, -5))
+    points = ([a + b for a, b in zip(first, second, strict=True)], first, second, [0.0] * count)
+    both, one, other, rest = ([float(v) for v in split.velocity(NUMPY, p, parameters)] for p in points)
+    sizes = zip(both, one, other, rest, strict=True)
+    return all(abs((a + z) - (b + c)) <= LINEAR * (abs(a) + abs(b) + abs(c) + abs(z)) for a, b, c, z in sizes)
 
 
 def fits(method: Method, problem: Problem) -> bool:

@@ -10,11 +10,16 @@ from compare.methods.compositions import COMPOSITIONS
 from compare.methods.conservative import CONSERVATIVE
 from compare.methods.embedded import EMBEDDED
 from compare.methods.explicit import EULER, EXPLICIT, HEUN, MIDPOINT, RK4
+from compare.methods.force_gradient import FORCE_GRADIENT
 from compare.methods.implicit import IMPLICIT, IMPLICIT_MIDPOINT
 from compare.methods.many_stages import MANY_STAGES
 from compare.methods.multistep import MULTISTEP
+from compare.methods.near_integrable import NEAR_INTEGRABLE
 from compare.methods.nystrom import NYSTROM
 from compare.methods.own.step_function import method_at
+from compare.methods.processed import PROCESSED
+from compare.methods.runge_kutta_nystrom import RUNGE_KUTTA_NYSTROM
+from compare.methods.symmetric import SYMMETRIC
 from compare.methods.symplectic import (
     POSITION_VERLET,
     RUTH3,
@@ -41,8 +46,13 @@ METHODS: tuple[Method, ...] = (
     *EMBEDDED,
     *MANY_STAGES,
     *SYMPLECTIC,
+    *SYMMETRIC,
     *COMPOSITIONS,
+    *NEAR_INTEGRABLE,
     *NYSTROM,
+    *FORCE_GRADIENT,
+    *PROCESSED,
+    *RUNGE_KUTTA_NYSTROM,
     *IMPLICIT,
     *CONSERVATIVE,
     *MULTISTEP,

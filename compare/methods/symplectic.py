@@ -44,13 +44,14 @@ VERLET = Splitting(
     flows=(("kick", Q(1, 2)), ("drift", Q(1)), ("kick", Q(1, 2))),
     aliases=(
         "stormer_verlet", "velocity_verlet", "leapfrog", "kick_drift_kick", "pseudo_leapfrog", "lobatto_iiia_iiib2",
+        "sbab1",
     ),
 )  # fmt: skip
 
 POSITION_VERLET = Splitting(
     name="position_verlet", order=2, source="Tuckerman, Berne and Martyna 1992, J. Chem. Phys. 97, 1990",
     flows=(("drift", Q(1, 2)), ("kick", Q(1)), ("drift", Q(1, 2))),
-    aliases=("drift_kick_drift",),
+    aliases=("drift_kick_drift", "saba1"),
 )  # fmt: skip
 
 RUTH3 = Splitting(

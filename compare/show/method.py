@@ -11,11 +11,18 @@ from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
 from compare.methods.kinds.multistep import LinearMultistep, PredictorCorrector
-from compare.methods.kinds.one_step import Splitting, Stability, Tableau
+from compare.methods.kinds.nystrom import RungeKuttaNystrom
+from compare.methods.kinds.one_step import Processed, Splitting, Stability, Tableau
 from compare.methods.kinds.partitioned import Partitioned
 from compare.methods.kinds.stormer import StormerCowell
 from compare.methods.order.algebraic import Algebraic
-from compare.methods.order.conditions import order_of_splitting, order_of_tableau, proven_order
+from compare.methods.order.conditions import (
+    generalised_order,
+    order_of_nystrom,
+    order_of_splitting,
+    order_of_tableau,
+    proven_order,
+)
 from reference.arithmetic.limbs import decimal, exact_decimal, fixed, interval, ziv
 
 if TYPE_CHECKING:
@@ -158,10 +165,15 @@ def _orders(method: Method) -> Iterator[tuple[str, Any]]:
     yield "proven order", proven_order(method)
     if isinstance(method, Tableau) and method.residual:
         yield "order conditions missed by at most", float(method.residual)
-    if isinstance(method, Splitting) and method.nystrom:
+    if isinstance(method, Splitting) and method.nystrom and not method.linear_velocities_only:
         yield "proven order where velocities are not linear", order_of_splitting(replace(method, nystrom=False))
+    if isinstance(method, Splitting) and method.generalised:
+        yield "generalised order, where kicks are small", method.generalised
+        yield "proven generalised order", generalised_order(method)
     if isinstance(method, Tableau) and method.embedded:
         yield "proven embedded orders", tuple(order_of_tableau(method, other.b) for other in method.embedded)
+    if isinstance(method, RungeKuttaNystrom):
+        yield "proven embedded orders", tuple(order_of_nystrom(method, other) for other in method.embedded)
 
 
 def _evaluations(method: Method) -> Iterator[tuple[str, int]]:
@@ -173,6 +185,8 @@ def _evaluations(method: Method) -> Iterator[tuple[str, int]]:
         yield "evaluations per step", once
     if start:
         yield "evaluations at the start", start
+    if isinstance(method, Splitting) and method.linear_velocities_only:
+        yield "derivatives of the force along itself per step", method.jacobians(1)
 
 
 def _stability(method: Method) -> Iterator[tuple[str, bool]]:
@@ -184,8 +198,8 @@ def _stability(method: Method) -> Iterator[tuple[str, bool]]:
 
 def _needs(method: Method) -> Iterator[tuple[str, str]]:
     if method.separable_only:
-        linear = ", and velocities linear in the momenta" if getattr(method, "nystrom", False) else ""
-        yield "needs", f"positions apart from momenta{linear}"
+        linear = method.linear_velocities_only or getattr(method, "nystrom", False)
+        yield "needs", f"positions apart from momenta{', and velocities linear in the momenta' if linear else ''}"
 
 
 def _roots(method: Method) -> Iterator[tuple[str, str]]:
@@ -207,6 +221,14 @@ def _tables(method: Method) -> Iterator[Butcher | Rows]:
     elif isinstance(method, Partitioned):
         yield Butcher("positions", method.c, method.matrix, (("b", method.b),))
         yield Butcher("momenta", tuple(map(_sum, method.hat)), method.hat, (("b", method.b),))
+    elif isinstance(method, RungeKuttaNystrom):
+        weights = [("b_bar", method.b_bar), ("b", method.b)]
+        for other in method.embedded:
+            weights += [(f"b_bar, order {other.order}", other.b_bar), (f"b, order {other.order}", other.b)]
+        yield Butcher("", method.c, method.matrix, tuple(weights))
+    elif isinstance(method, Processed):
+        yield Rows("processor, undone behind the kernel", ("flow", "weight"), method.processor)
+        yield Rows("kernel", ("flow", "weight"), method.kernel)
     elif isinstance(method, Splitting):
         yield Rows("flows, in the order in which they are applied", ("flow", "weight"), method.flows)
     elif isinstance(method, PredictorCorrector):

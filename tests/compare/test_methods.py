@@ -14,6 +14,7 @@ from compare.measure.order_fit import fit_order
 from compare.measure.truth import Course
 from compare.methods import DEFAULT, METHODS, _plain, find
 from compare.methods.explicit import RK4
+from compare.methods.kinds.nystrom import EmbeddedNystrom, RungeKuttaNystrom
 from compare.methods.kinds.one_step import Embedded, Method, Splitting, Tableau
 from compare.methods.kinds.partitioned import Partitioned
 from compare.methods.order.algebraic import Q
@@ -24,7 +25,7 @@ tables = pytest.mark.parametrize(
     "method", [method for method in METHODS if method.family != "multistep"], ids=lambda method: method.name
 )
 FLOAT128 = precision("float128")
-WIDER = {name: precision("mp:256") for name in ("taylor20", "feagin12", "feagin14")}
+WIDER = {name: precision("mp:256") for name in ("taylor20", "feagin12", "feagin14")} | {"rkn1210": precision("mp:192")}
 """The formats of methods that in binary128 come to rounding before their error falls as it does in the end."""
 STEPS = {
     "sofroniou_spaletta10": (64, 128, 256, 512),  # in more it reaches the rounding floor of binary128
@@ -37,6 +38,8 @@ STEPS = {
     "feagin12": (128, 256, 512, 1024),
     "feagin14": (64, 128, 256, 512),
     "taylor12": (32, 64, 128, 256, 512),  # rounding, as above
+    "rkn1210": (128, 256, 512, 1024),  # its next error lasts longer than its leading one is above that of binary128
+    "processed6": (4096, 8192, 16384),  # its next error lasts longer
 }
 USUAL_STEPS = (256, 512, 1024, 2048, 4096)
 MOTIONS = {
@@ -90,7 +93,8 @@ def test_methods_of_many_names_are_one() -> None:
 
 
 def test_two_tables_are_never_the_same_method() -> None:
-    one_step = [method for method in METHODS if isinstance(method, (Tableau, Splitting, Partitioned))]
+    kinds = (Tableau, Splitting, Partitioned, RungeKuttaNystrom)
+    one_step = [method for method in METHODS if isinstance(method, kinds)]
     coefficients = [
         method.flows if isinstance(method, Splitting) else (method.matrix, method.b, getattr(method, "hat", ()))
         for method in one_step
@@ -123,7 +127,9 @@ def test_the_families_of_the_list_are_there() -> None:
         "trapezoid", "implicit_midpoint", "gauss4", "gauss6", "radau3", "radau5", "lobatto_pair4",
         "ralston3", "ralston4", "ssprk54", "ssprk104", "bogacki_shampine54", "verner65", "verner76", "verner87",
         "verner98", "rk8713m", "fehlberg78", "feagin10", "feagin12", "feagin14", "calvo_montijano_randez65",
-        "taylor4", "taylor8", "taylor12", "taylor20",
+        "taylor4", "taylor8", "taylor12", "taylor20", "rkn43", "rkn64", "rkn86", "rkn1210", "mclachlan4", "mclachlan6",
+        "aba864", "aba1064", "saba4", "sbab4", "sabac4", "sbabc4", "chin4a", "vefrl", "omf4", "omelyan6_gp5",
+        "processed4", "processed6", "processed764",
     }  # fmt: skip
 
 
@@ -154,6 +160,15 @@ def test_a_table_that_is_no_method_is_refused() -> None:
         Splitting("bad", 1, "none", (("kick", Q(2)), ("drift", Q(1))))
     with pytest.raises(ValueError, match="neighbouring flows are of one kind"):
         Splitting("bad", 1, "none", (("kick", Q(1)), ("drift", Q(1, 2)), ("drift", Q(1, 2))))
+    with pytest.raises(ValueError, match="a gradient is of Nystrom's kind alone; nystrom=True is accepted"):
+        Splitting("bad", 1, "none", (("kick", Q(1)), ("gradient", Q(1)), ("drift", Q(1))))
+    with pytest.raises(ValueError, match="a is not strictly lower of 1 rows; such is accepted"):
+        RungeKuttaNystrom("bad", 1, "none", (Q(0),), ((Q(1),),), (Q(1, 2),), (Q(1),))
+    with pytest.raises(ValueError, match="the weights sum to 1 and 1; 1/2 and 1 are accepted"):
+        RungeKuttaNystrom("bad", 1, "none", (Q(0),), ((),), (Q(1),), (Q(1),))
+    few = EmbeddedNystrom(1, (Q(1, 2), Q(0)), (Q(1),))
+    with pytest.raises(ValueError, match="2 and 1 weights; 1 of each are accepted"):
+        RungeKuttaNystrom("bad", 1, "none", (Q(0),), ((),), (Q(1, 2),), (Q(1),), (few,))
     with pytest.raises(ValueError, match="a matrix is not of 1 rows and columns"):
         Partitioned("bad", 1, "none", ((Q(1),),), ((Q(1), Q(0)),), (Q(1),))
     with pytest.raises(ValueError, match="the weights b sum to 3"):

@@ -9,17 +9,28 @@ import pytest
 from compare.methods import METHODS, find
 from compare.methods.compositions import KAHAN_LI6
 from compare.methods.explicit import RK4
+from compare.methods.kinds.nystrom import RungeKuttaNystrom
 from compare.methods.kinds.one_step import Method, Splitting, Tableau, compose
 from compare.methods.kinds.partitioned import Partitioned
 from compare.methods.nystrom import NYSTROM
 from compare.methods.order.algebraic import Q
 from compare.methods.order.certified_roots import Linear
-from compare.methods.order.conditions import order_of_splitting, order_of_tableau, proven_order
+from compare.methods.order.conditions import (
+    generalised_order,
+    order_of_nystrom,
+    order_of_splitting,
+    order_of_tableau,
+    proven_order,
+)
+from compare.methods.order.nystrom_trees import nystrom_density, nystrom_trees
 from compare.methods.order.refined import jump
 from compare.methods.order.rooted_trees import trees
+from compare.methods.runge_kutta_nystrom import RUNGE_KUTTA_NYSTROM
+from compare.methods.symmetric import SYMMETRIC
 from compare.methods.symplectic import VERLET, triple_jump
 
-TABLES = [method for method in METHODS if isinstance(method, (Tableau, Splitting, Partitioned))]
+KINDS = (Tableau, Splitting, Partitioned, RungeKuttaNystrom)
+TABLES = [method for method in METHODS if isinstance(method, KINDS)]
 
 
 @pytest.mark.parametrize("method", TABLES, ids=lambda method: method.name)
@@ -91,9 +102,53 @@ def test_a_method_of_nystroms_kind_has_a_lower_order_elsewhere(name: str, order:
 
 def test_only_what_needs_linear_velocities_says_so() -> None:
     needing = {method.name for method in METHODS if isinstance(method, Splitting) and method.nystrom}
-    for method in NYSTROM:
+    for method in (*NYSTROM, *SYMMETRIC):
         anywhere = order_of_splitting(replace(method, nystrom=False))
         assert (anywhere < method.order) == (method.name in needing)
+
+
+@pytest.mark.parametrize("method", RUNGE_KUTTA_NYSTROM, ids=lambda method: method.name)
+def test_embedded_weights_of_nystroms_pairs_have_the_order_that_they_declare(method: RungeKuttaNystrom) -> None:
+    assert [order_of_nystrom(method, other) for other in method.embedded] == [other.order for other in method.embedded]
+
+
+def test_nystroms_trees_are_those_of_the_books() -> None:
+    """Hairer, Norsett and Wanner, table II.14.2, and Nystrom's method of order 4 with three stages."""
+    assert [len(nystrom_trees(order)) for order in range(1, 11)] == [1, 1, 2, 3, 6, 10, 20, 36, 72, 137]
+    assert [nystrom_density(tree) for tree in nystrom_trees(4)] == [24, 8, 4]
+    nystrom4 = RungeKuttaNystrom(
+        "nystrom4", 4, "none", (Q(0), Q(1, 2), Q(1)), ((), (Q(1, 8),), (Q(0), Q(1, 2))),
+        (Q(1, 6), Q(1, 3), Q(0)), (Q(1, 6), Q(2, 3), Q(1, 6)),
+    )  # fmt: skip
+    assert proven_order(nystrom4) == 4
+    assert proven_order(replace(nystrom4, a=((), (Q(1, 8),), (Q(0), Q(1, 3))))) < 4
+
+
+def test_the_fractions_of_order_twelve_with_lost_digits_are_of_order_two() -> None:
+    """As they stand in OrdinaryDiffEq.jl: with a 0 for the last digit of one entry of row 14."""
+    whole = next(method for method in RUNGE_KUTTA_NYSTROM if method.order == 12)
+    row = list(whole.a[13])
+    assert str(row[5]) == (
+        "-3625720213550267723370658302114678215563058405229078125/324512095420929759624784749347170583153994213035432256"
+    )
+    row[5] -= Q(-5, row[5].denominator)
+    assert abs(sum(row) - whole.c[13] ** 2 / 2) < Q(1, 10**52)
+    assert proven_order(replace(whole, a=(*whole.a[:13], tuple(row), *whole.a[14:]))) == 2
+
+
+@pytest.mark.parametrize(
+    "method", [m for m in METHODS if isinstance(m, Splitting) and m.generalised], ids=lambda method: method.name
+)
+def test_generalised_orders_are_those_that_are_stated(method: Splitting) -> None:
+    assert generalised_order(method) == method.generalised
+
+
+def test_a_corrector_of_another_weight_leaves_order_two() -> None:
+    corrected = find("sabac3")
+    assert isinstance(corrected, Splitting)
+    slipped = tuple((kind, weight * 2 if kind == "gradient" else weight) for kind, weight in corrected.flows)
+    assert order_of_splitting(replace(corrected, flows=slipped)) == 2
+    assert generalised_order(replace(corrected, flows=slipped)) == (6, 2)
 
 
 def test_a_partitioned_method_with_its_matrices_exchanged_in_one_row_loses_order() -> None:

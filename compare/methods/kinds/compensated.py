@@ -76,6 +76,9 @@ class _ValueSystem:
     def force(self, positions: State) -> State:
         return self._system.force(_values(positions))
 
+    def force_along(self, positions: State, direction: State) -> State:
+        return self._system.force_along(_values(positions), _values(direction))
+
     def jet(self, y: State, order: int) -> list[State]:
         return self._system.jet(_values(y), order)
 

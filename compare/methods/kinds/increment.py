@@ -6,13 +6,15 @@ from functools import reduce
 from operator import add
 from typing import TYPE_CHECKING, Any
 
+from compare.methods.order.algebraic import Q
+
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from compare.methods.kinds.protocol import Equation, State
+    from compare.methods.kinds.protocol import Equation, State, System
     from compare.methods.order.algebraic import Coefficient
 
-__all__ = ["advance", "increment", "part"]
+__all__ = ["advance", "increment", "part", "turned"]
 
 
 def part(system: Equation, weight: Coefficient, h: Any) -> Any:
@@ -33,3 +35,10 @@ def advance(system: Equation, y: State, h: Any, weights: Sequence[Coefficient], 
     """y + sum_j (h weights_j) slopes_j."""
     moved = increment(system, h, weights, slopes)
     return tuple(map(add, y, moved)) if moved else y
+
+
+def turned(system: System, force: State) -> State:
+    """The rates of the velocities that a force gives, v(F) - v(0): where v(p) = A p + b they are A F."""
+    zero = system.number(Q(0))
+    still = system.velocity((zero,) * len(force))
+    return tuple(rate - rest for rate, rest in zip(system.velocity(force), still, strict=True))

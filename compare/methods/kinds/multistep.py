@@ -106,6 +106,7 @@ class Multistep:
     symplectic: ClassVar[bool] = False
     separable_only: ClassVar[bool] = False
     second_order_only: ClassVar[bool] = False
+    linear_velocities_only: ClassVar[bool] = False
     opaque: ClassVar[bool] = False
 
     @cached_property

@@ -9,14 +9,14 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from fractions import Fraction
-from itertools import pairwise
+from itertools import groupby, pairwise
 from math import lcm
 from typing import TYPE_CHECKING, Any, ClassVar, TypeAlias
 
 from flint import fmpz_poly
 
 from compare.methods.kinds import newton
-from compare.methods.kinds.increment import advance, increment, part
+from compare.methods.kinds.increment import advance, increment, part, turned
 from compare.methods.kinds.protocol import Method, OneStep, State, System
 from compare.methods.order.algebraic import Algebraic, Coefficient, Q, enclose
 from reference.once import cached_property
@@ -29,14 +29,17 @@ __all__ = [
     "Embedded",
     "Method",
     "OneStep",
+    "Processed",
     "Splitting",
     "Stability",
     "State",
     "System",
     "Tableau",
+    "around",
     "compose",
     "is_symmetric",
     "is_symplectic",
+    "merged",
     "used_stages",
 ]
 
@@ -242,12 +245,20 @@ class Tableau(OneStep):
 class Splitting(OneStep):
     """A composition of the exact flows of the two halves of a separable system, in the order they are applied.
 
-    ``flows`` is a sequence of ("kick", d), which adds d h force(q) to the momenta, and ("drift", c), which adds
-    c h velocity(p) to the positions.  Symplectic for every separable Hamiltonian.  With ``nystrom`` it has its order
+    ``flows`` is a sequence of ("kick", d), which adds d h F(q) to the momenta, F the force, and ("drift", c), which
+    adds c h v(p) to the positions.  Symplectic for every separable Hamiltonian.  With ``nystrom`` it has its order
     where the velocity is linear in the momenta, and may have a lower one elsewhere.
 
+    ("gradient", e) adds 2 e h^3 F'(q) v' F(q), which is e h^3 times the gradient of F^2 where masses are one: with A
+    the drift and B the kick, the flow of e h^3 [B, [A, B]].  It needs a velocity that is linear in the momenta, v'
+    constant, and the force's derivative along a vector.
+
+    Attributes:
+        generalised: orders where the kicks are small, of a part epsilon of the motion, as in the motion of planets:
+            (8, 6, 4) leaves errors of epsilon h^8, epsilon^2 h^6, and epsilon^3 h^4; () where none are stated.
+
     Raises:
-        ValueError: kicks or drifts do not sum to 1, or neighbours are of one kind.
+        ValueError: kicks or drifts do not sum to 1, neighbours are of one kind, or a gradient is not of Nystrom's kind.
     """
 
     name: str
@@ -260,6 +271,7 @@ class Splitting(OneStep):
     separable_only: bool = True
     second_order_only: ClassVar[bool] = False
     nystrom: bool = False
+    generalised: tuple[int, ...] = ()
 
     def __post_init__(self) -> None:
         for kind in ("kick", "drift"):
@@ -270,46 +282,103 @@ class Splitting(OneStep):
             raise ValueError(
                 f"{self.name}: two neighbouring flows are of one kind; kicks and drifts in turn are accepted."
             )
+        if self.linear_velocities_only and not self.nystrom:
+            raise ValueError(f"{self.name}: a gradient is of Nystrom's kind alone; nystrom=True is accepted.")
+
+    @property
+    def linear_velocities_only(self) -> bool:
+        """Whether there are gradients, whose direction is a force as a velocity."""
+        return any(kind == "gradient" for kind, _ in self.flows)
+
+    @property
+    def repeated(self) -> tuple[tuple[str, Coefficient], ...]:
+        """The flows that each further step adds to the work of a march: all of them."""
+        return self.flows
 
     @property
     def stages(self) -> int:
-        return sum(kind == "kick" for kind, _ in self.flows)
+        """Where the force is evaluated: a kick and a gradient beside it share it."""
+        return _stages(self.repeated)
 
     @cached_property
     def symmetric(self) -> bool:
         """Whether a step back undoes a step: the flows are a palindrome."""
-        return self.flows == self.flows[::-1]
+        return self.flows == merged(self.flows[::-1])
 
     @property
     def fsal(self) -> bool:
         """Whether the last kick's force is the first kick's of the next step."""
-        return self.flows[0][0] == self.flows[-1][0] == "kick"
+        return "drift" not in {self.repeated[0][0], self.repeated[-1][0]}
 
     def evaluations(self, iterations: int) -> tuple[int, int]:  # noqa: ARG002
         """One fewer per step where the last kick's force is the first kick's of the next step."""
         return self.stages - self.fsal, int(self.fsal)
 
+    def jacobians(self, iterations: int) -> int:  # noqa: ARG002
+        """The derivatives of the force along itself, one a gradient, the last that of the next step where it can be."""
+        kinds = [kind for kind, _ in self.repeated]
+        return kinds.count("gradient") - (self.fsal and "gradient" in kinds[:2] and kinds[-1] == "gradient")
+
     def step(self, system: System, y: State, h: Any, iterations: int = 0) -> tuple[State, State]:  # noqa: ARG002
         positions, momenta = y[: system.positions], y[system.positions :]
+        force: State = ()
         for kind, weight in self.flows:
             dt = part(system, weight, h)
-            if kind == "kick":
-                momenta = tuple(p + dt * f for p, f in zip(momenta, system.force(positions), strict=True))
-            else:
+            if kind == "drift":
                 positions = tuple(q + dt * v for q, v in zip(positions, system.velocity(momenta), strict=True))
+                force = ()
+                continue
+            force = force or system.force(positions)
+            pull = force if kind == "kick" else system.force_along(positions, turned(system, force))
+            size = dt if kind == "kick" else dt * (h * h + h * h)
+            momenta = tuple(p + size * f for p, f in zip(momenta, pull, strict=True))
         return positions + momenta, ()
+
+
+@dataclass(frozen=True)
+class Processed(Splitting):
+    """A kernel between a processor and its inverse: what a step of the kernel lacks of its order, the processor gives.
+
+    From step to step the inverse and the processor cancel: a march has the work of one kernel a step, and of both
+    processors once.  Here they are applied at every step, because each of its states is looked at.
+    """
+
+    processor: tuple[tuple[str, Coefficient], ...] = ()
+    kernel: tuple[tuple[str, Coefficient], ...] = ()
+
+    @property
+    def repeated(self) -> tuple[tuple[str, Coefficient], ...]:
+        """The kernel."""
+        return self.kernel
+
+    def evaluations(self, iterations: int) -> tuple[int, int]:
+        """Those of the kernel, and once besides those of the processor and of its inverse."""
+        own, once = super().evaluations(iterations)
+        return own, once + 2 * _stages(self.processor)
+
+
+def around(kernel: Sequence[tuple[str, Any]], processor: Sequence[tuple[str, Any]]) -> tuple[tuple[str, Any], ...]:
+    """The processor, the kernel and the inverse of the processor as flows of one step."""
+    return merged([*processor, *kernel, *((kind, -weight) for kind, weight in reversed(processor))])
+
+
+def _stages(flows: Sequence[tuple[str, Any]]) -> int:
+    kinds = [kind for kind, _ in flows]
+    return sum(kind != "drift" and before in {"drift", ""} for before, kind in pairwise(("", *kinds)))
+
+
+def merged(flows: Sequence[tuple[str, Any]]) -> tuple[tuple[str, Any], ...]:
+    """The same flows with neighbours of one kind as one, a gradient behind the kick that it commutes with."""
+    groups = [tuple(group) for _, group in groupby(flows, key=lambda flow: flow[0] == "drift")]
+    kinds = ((group, kind) for group in groups for kind in ("drift", "kick", "gradient"))
+    weighed = ((kind, [weight for flow, weight in group if flow == kind]) for group, kind in kinds)
+    return tuple((kind, sum(weights[1:], weights[0])) for kind, weights in weighed if weights)
 
 
 def compose(
     base: Splitting, weights: Sequence[Coefficient], name: str, order: int, source: str, aliases: tuple[str, ...] = ()
 ) -> Splitting:
     """The splitting that applies ``base`` with steps ``weights`` h one after another, neighbours of one kind merged."""
-    flows: list[tuple[str, Any]] = []
     factors: Sequence[Any] = weights
-    for weight in factors:
-        for kind, coefficient in base.flows:
-            scaled = weight * coefficient
-            if flows and flows[-1][0] == kind:
-                scaled = flows.pop()[1] + scaled
-            flows.append((kind, scaled))
-    return Splitting(name, order, source, tuple(flows), aliases)
+    flows = merged([(kind, weight * coefficient) for weight in factors for kind, coefficient in base.flows])
+    return Splitting(name, order, source, flows, aliases)

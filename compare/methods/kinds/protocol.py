@@ -56,6 +56,9 @@ class System(Equation, Protocol):
     def force(self, positions: State) -> State:
         """The rates of the momenta, which depend on the positions alone."""
 
+    def force_along(self, positions: State, direction: State) -> State:
+        """The derivative of the force along a direction in the space of the positions, exact but for rounding."""
+
     def jet(self, y: State, order: int) -> list[State]:
         """y^(k)/k! for k = 1, ..., order, of the solution through y; what is always zero is the integer 0."""
 
@@ -89,6 +92,9 @@ class Method(Protocol):
     def separable_only(self) -> bool: ...
     @property
     def second_order_only(self) -> bool: ...
+    @property
+    def linear_velocities_only(self) -> bool:
+        """Whether a step turns forces into velocities, which it can where these are linear in the momenta."""
 
     @property
     def opaque(self) -> bool:
@@ -125,6 +131,11 @@ class OneStep:
 
     starting_steps: ClassVar[int] = 0
     opaque: ClassVar[bool] = False
+
+    @property
+    def linear_velocities_only(self) -> bool:
+        """Whether forces are turned into velocities; not so of most."""
+        return False
 
     def memory(self, dimension: int, positions: int) -> int:  # noqa: ARG002
         return 0

@@ -15,18 +15,27 @@ See E. Hairer, C. Lubich and G. Wanner, Geometric Numerical Integration (2006), 
 from __future__ import annotations
 
 from fractions import Fraction
-from functools import cache, lru_cache, reduce
+from functools import cache, lru_cache, partial, reduce
 from math import factorial
 from operator import mul
 from typing import TYPE_CHECKING, Any
 
 from flint import arb, fmpq
 
+from compare.methods.kinds.nystrom import RungeKuttaNystrom
 from compare.methods.kinds.one_step import EXACT, Splitting, Tableau
 from compare.methods.kinds.partitioned import Partitioned
 from compare.methods.order.algebraic import Q, enclose
 from compare.methods.order.certified_roots import Linear
-from compare.methods.order.lyndon_words import coefficient, lyndon_words, nystrom_words
+from compare.methods.order.lyndon_words import (
+    KICK,
+    coefficient,
+    exponent,
+    lyndon_words,
+    necessary_nystrom_words,
+    nystrom_words,
+)
+from compare.methods.order.nystrom_trees import NystromWeights, nystrom_density, nystrom_trees
 from compare.methods.order.rooted_trees import ElementaryWeights, density, trees
 from compare.methods.order.stage_vectors import StageVectors
 from reference.arithmetic.precision import PrecisionError, ctx
@@ -35,14 +44,18 @@ from reference.arithmetic.series import jet
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
 
+    from compare.methods.kinds.nystrom import EmbeddedNystrom
     from compare.methods.kinds.protocol import Method, State
     from compare.methods.order.algebraic import Coefficient
+    from compare.methods.order.lyndon_words import Word
     from compare.methods.order.rooted_trees import Tree
 
 __all__ = [
     "PROOF_BITS",
     "Forest",
+    "generalised_order",
     "order_by_steps",
+    "order_of_nystrom",
     "order_of_partitioned",
     "order_of_splitting",
     "order_of_tableau",
@@ -104,6 +117,8 @@ NARROW_BITS = 100
 """A residual that is zero is known to be smaller than 2^-NARROW_BITS; one that is not is far larger."""
 LIMIT = 16
 """No order is looked for beyond it."""
+SMALL_KICKS = 3
+"""Words with fewer kicks are the same for velocities that are linear in the momenta and for others."""
 
 
 def proven_order(method: Method) -> int | None:
@@ -114,6 +129,8 @@ def proven_order(method: Method) -> int | None:
         return order_of_splitting(method)
     if isinstance(method, Partitioned):
         return order_of_partitioned(method)
+    if isinstance(method, RungeKuttaNystrom):
+        return order_of_nystrom(method)
     own = getattr(method, "proven_order", None)
     return own() if own is not None else None
 
@@ -149,23 +166,64 @@ def order_of_splitting(method: Splitting) -> int:
     Where the method is made for it, the velocity is taken to be linear in the momenta.
     """
     with ctx.workprec(PROOF_BITS):
-        weights = _numbers([weight for _, weight in method.flows])
-        factors = [{kind: weight} for (kind, _), weight in zip(method.flows, weights, strict=True)]
-        words = nystrom_words if method.nystrom else lyndon_words
+        return _largest(partial(_word_residuals, method, _exponents(method), range(LIMIT + 1)))
 
-        def residuals(degree: int) -> Iterator[Any]:
-            if method.symmetric and degree % 2 == 0:
-                return
-            for word in words(degree):
-                yield coefficient(word, factors) * factorial(degree) - 1
 
-        return _largest(residuals)
+def generalised_order(method: Splitting) -> tuple[int, ...]:
+    """The orders of a splitting where its kicks are small, one for each power of them that it states, the last for all.
+
+    A word with k kicks is a part of the error with the power epsilon^k.
+    """
+    with ctx.workprec(PROOF_BITS):
+        factors, stated = _exponents(method), range(1, len(method.generalised) + 1)
+        kicks = [range(k, LIMIT + 1) if k == len(stated) else range(k, k + 1) for k in stated]
+        return tuple(_largest(partial(_word_residuals, method, factors, some)) for some in kicks)
+
+
+def _exponents(method: Splitting) -> list[dict[Word, Any]]:
+    weights = _numbers([weight for _, weight in method.flows])
+    return [exponent(kind, weight) for (kind, _), weight in zip(method.flows, weights, strict=True)]
+
+
+def _word_residuals(method: Splitting, factors: Sequence[dict[Word, Any]], kicks: range, degree: int) -> Iterator[Any]:
+    """Of the words of a degree that have so many kicks; with two or fewer, Nystrom's words are all."""
+    if method.symmetric and degree % 2 == 0:
+        return
+    reduced = method.nystrom and kicks.stop > SMALL_KICKS
+    words = necessary_nystrom_words(degree)[0] if reduced else lyndon_words(degree)
+    for word in words:
+        if word.count(KICK) in kicks:
+            yield coefficient(word, factors) * factorial(degree) - 1
+    if reduced:
+        nystrom_words(degree)  # raises where all of these do not decide
 
 
 def _tree_residuals(weights: Sequence[Sequence[Any]], matrices: Sequence[Any], order: int) -> Iterator[Any]:
     elementary = ElementaryWeights(*matrices)
     for tree in trees(order, len(matrices)):
         yield elementary.weight(weights[tree[0]], tree) * density(tree) - 1
+
+
+def order_of_nystrom(method: RungeKuttaNystrom, other: EmbeddedNystrom | None = None) -> int:
+    """The order of an explicit Runge-Kutta-Nystrom method, or of its stages with other weights, by Nystrom's trees.
+
+    Up to order p the momenta have the trees of up to p vertices, the positions those of up to p - 1.
+    """
+    with ctx.workprec(PROOF_BITS):
+        size, weights = method.stages, other or method
+        rows = [entry for row in method.matrix for entry in row]
+        values = _numbers([*method.c, *weights.b_bar, *weights.b, *rows])
+        nodes, b_bar, b = (values[i * size : (i + 1) * size] for i in range(3))
+        entries = values[3 * size :]
+        stages = NystromWeights(nodes, [entries[i * size : (i + 1) * size] for i in range(size)])
+
+        def residuals(order: int) -> Iterator[Any]:
+            for tree in nystrom_trees(order):
+                yield stages.weight(b, tree) * nystrom_density(tree) - 1
+            for tree in nystrom_trees(order - 1):
+                yield stages.weight(b_bar, tree) * nystrom_density(tree) * order - 1
+
+        return _largest(residuals)
 
 
 def _largest(residuals: Callable[[int], Iterator[Any]], most: Fraction = EXACT) -> int:

@@ -16,27 +16,61 @@ from flint import fmpq_mat
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping, Sequence
 
-__all__ = ["DRIFT", "KICK", "Word", "coefficient", "lyndon_words", "nystrom_words", "odd_words"]
+__all__ = [
+    "DRIFT",
+    "GRADIENT",
+    "KICK",
+    "Word",
+    "coefficient",
+    "exponent",
+    "lyndon_words",
+    "necessary_nystrom_words",
+    "nystrom_words",
+    "odd_words",
+]
 
 Word: TypeAlias = tuple[Any, ...]
-DRIFT, KICK = "drift", "kick"
+DRIFT, KICK, GRADIENT = "drift", "kick", "gradient"
 LETTERS = (DRIFT, KICK)
 
 
-def coefficient(word: Word, factors: Iterable[Mapping[Any, Any]]) -> Any:
-    """The coefficient of a word in the product of exp(sum of factor[letter] letter), one factor after another."""
+def exponent(kind: str, weight: Any) -> dict[Word, Any]:
+    """What a flow of a splitting is the exponential of, as a sum of words.
+
+    A gradient is [kick, [drift, kick]] = 2 kick drift kick - kick kick drift - drift kick kick.
+    """
+    if kind == GRADIENT:
+        return {(KICK, DRIFT, KICK): 2 * weight, (KICK, KICK, DRIFT): -weight, (DRIFT, KICK, KICK): -weight}
+    return {(kind,): weight}
+
+
+def coefficient(word: Word, factors: Iterable[Mapping[Word, Any]]) -> Any:
+    """The coefficient of a word in the product of exp(sum of factor[piece] piece), one factor after another."""
     prefixes: list[Any] = [1, *[None] * len(word)]
     for factor in factors:
         for end in range(len(word), 0, -1):
-            term: Any = 1
-            for begin in range(end - 1, -1, -1):
-                if word[begin] not in factor:
+            terms: dict[int, Any] = {end: 1}
+            for power in range(1, end + 1):
+                terms = _before(terms, word, factor, power)
+                for begin, term in terms.items():
+                    if prefixes[begin] is not None:
+                        added = prefixes[begin] * term
+                        prefixes[end] = added if prefixes[end] is None else prefixes[end] + added
+                if not terms:
                     break
-                term = term * factor[word[begin]] / (end - begin)
-                if prefixes[begin] is not None:
-                    added = prefixes[begin] * term
-                    prefixes[end] = added if prefixes[end] is None else prefixes[end] + added
     return 0 if prefixes[-1] is None else prefixes[-1]
+
+
+def _before(terms: Mapping[int, Any], word: Word, factor: Mapping[Word, Any], power: int) -> dict[int, Any]:
+    """X^power/power! of the words that end where one is to begin, X the factor, by X^(power-1)/(power-1)! of those."""
+    found: dict[int, Any] = {}
+    for begin, term in terms.items():
+        for piece, weight in factor.items():
+            start = begin - len(piece)
+            if start >= 0 and word[start:begin] == piece:
+                added = term * weight / power
+                found[start] = found[start] + added if start in found else added
+    return found
 
 
 def _is_lyndon(word: Word) -> bool:
@@ -68,7 +102,6 @@ def _odd_sums(degree: int) -> Iterable[Word]:
             yield (first, *rest)
 
 
-@cache
 def nystrom_words(degree: int) -> tuple[Word, ...]:
     """Words whose coefficients decide the order where the velocity is linear in the momenta: 2, 1, 2, 2, 4, 5, 10, ...
 
@@ -77,8 +110,17 @@ def nystrom_words(degree: int) -> tuple[Word, ...]:
     independent on the Lie elements of the degree, which must be as many as there are beside the ideal.
 
     Raises:
-        ArithmeticError: such words are too few.
+        ArithmeticError: such words are too few, as they are in degree 9 and beyond.
     """
+    chosen, needed = necessary_nystrom_words(degree)
+    if len(chosen) != needed:
+        raise ArithmeticError(f"{len(chosen)} words decide degree {degree}, {needed} are needed.")
+    return chosen
+
+
+@cache
+def necessary_nystrom_words(degree: int) -> tuple[tuple[Word, ...], int]:
+    """Independent words of which none may fail, and how many would decide the degree."""
     elements = [_bracketed(word) for word in lyndon_words(degree)]
     chosen: list[Word] = []
     rows: list[list[int]] = []
@@ -89,9 +131,7 @@ def nystrom_words(degree: int) -> tuple[Word, ...]:
             rows.append(row)
     words = list(product(LETTERS, repeat=degree))
     ideal = _rank([[element.get(word, 0) for word in words] for element in _ideal(degree)])
-    if len(chosen) != len(elements) - ideal:
-        raise ArithmeticError(f"{len(chosen)} words decide degree {degree}, {len(elements) - ideal} are needed.")
-    return tuple(chosen)
+    return tuple(chosen), len(elements) - ideal
 
 
 def _outside_the_ideal(degree: int) -> Iterable[Word]:
