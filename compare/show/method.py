@@ -11,11 +11,12 @@ from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
 from compare.methods.kinds.multistep import LinearMultistep, PredictorCorrector
-from compare.methods.kinds.one_step import Splitting, Stability, Tableau
+from compare.methods.kinds.one_step import Splitting, Tableau
 from compare.methods.kinds.partitioned import Partitioned
 from compare.methods.kinds.stormer import StormerCowell
 from compare.methods.order.algebraic import Algebraic
 from compare.methods.order.conditions import order_of_splitting, order_of_tableau, proven_order
+from compare.methods.order.stability import Stability
 from reference.arithmetic.limbs import decimal, exact_decimal, fixed, interval, ziv
 
 if TYPE_CHECKING:

@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from compare.methods.kinds.protocol import Equation, State
     from compare.methods.order.algebraic import Coefficient
 
-__all__ = ["advance", "increment", "part"]
+__all__ = ["advance", "increment", "part", "stage"]
 
 
 def part(system: Equation, weight: Coefficient, h: Any) -> Any:
@@ -33,3 +33,15 @@ def advance(system: Equation, y: State, h: Any, weights: Sequence[Coefficient], 
     """y + sum_j (h weights_j) slopes_j."""
     moved = increment(system, h, weights, slopes)
     return tuple(map(add, y, moved)) if moved else y
+
+
+def stage(system: Equation, y: State, h: Any, rows: Sequence[Sequence[Coefficient]], slopes: Sequence[State]) -> State:
+    """y + sum_j (h weights_j) slopes_j, with weights for each component of their own."""
+    moved = []
+    for c, row in enumerate(rows):
+        value = y[c]
+        for weight, slope in zip(row, slopes, strict=True):
+            if weight != 0:
+                value = value + part(system, weight, h) * slope[c]
+        moved.append(value)
+    return tuple(moved)

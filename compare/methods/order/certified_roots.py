@@ -8,7 +8,7 @@ the only one by an interval Newton step, and is enclosed to any precision by mor
 from __future__ import annotations
 
 from fractions import Fraction
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Protocol
 
 from flint import arb, arb_mat
 
@@ -20,7 +20,7 @@ from reference.once import cached_property
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
 
-__all__ = ["Linear", "Zero", "ZeroError"]
+__all__ = ["Coordinates", "Linear", "Zero", "ZeroError"]
 
 ISOLATION_BITS, STILL_BITS, BOX_BITS = 256, 192, 128
 NEWTON_STEPS = 40
@@ -137,9 +137,21 @@ def _width(balls: Sequence[arb]) -> arb:
 
 
 def unit(text: str) -> Fraction:
-    """One unit of the last place of a decimal, such as 1/100 for "0.25"."""
+    """One unit of the last place of a decimal, such as 1/100 for "0.25"; of a fraction p/q, as near as one comes: 1/q^2."""
+    _, fraction, denominator = text.partition("/")
+    if fraction:
+        return Fraction(1, int(denominator) ** 2)
     digits, _, exponent = text.lower().partition("e")
     return Fraction(10) ** (int(exponent or 0) - len(digits.partition(".")[2]))
+
+
+class Coordinates(Protocol):
+    """Real numbers that are known together, by their enclosures; equal where they are the same."""
+
+    @property
+    def name(self) -> str: ...
+    def enclosures(self) -> list[arb]:
+        """Balls around them, as narrow as the precision in force allows."""
 
 
 class Linear:
@@ -148,7 +160,7 @@ class Linear:
     Two of them are equal where they are the same combination; none with a share left is rational.
     """
 
-    def __init__(self, zero: Zero, shares: Mapping[int, Fraction], constant: Fraction = Fraction(0)) -> None:
+    def __init__(self, zero: Coordinates, shares: Mapping[int, Fraction], constant: Fraction = Fraction(0)) -> None:
         self.zero, self.constant = zero, constant
         self.shares = {i: share for i, share in sorted(shares.items()) if share}
 

@@ -20,14 +20,12 @@ from math import factorial
 from operator import mul
 from typing import TYPE_CHECKING, Any
 
-from flint import arb
-
 from compare.methods.kinds.one_step import Splitting, Tableau
 from compare.methods.kinds.partitioned import Partitioned
-from compare.methods.order.algebraic import Algebraic, Q, enclose
+from compare.methods.order.algebraic import PROOF_BITS, Q, provable, vanishes
 from compare.methods.order.lyndon_words import coefficient, lyndon_words, nystrom_words
 from compare.methods.order.rooted_trees import ElementaryWeights, density, trees
-from reference.arithmetic.precision import PrecisionError, ctx
+from reference.arithmetic.precision import ctx
 from reference.arithmetic.series import jet
 
 if TYPE_CHECKING:
@@ -40,6 +38,7 @@ if TYPE_CHECKING:
 __all__ = [
     "PROOF_BITS",
     "Forest",
+    "order_by_assumptions",
     "order_by_steps",
     "order_of_partitioned",
     "order_of_splitting",
@@ -97,9 +96,6 @@ def order_by_steps(method: Method) -> int:
     return min(failed, default=method.order + 2) - 1
 
 
-PROOF_BITS = 300
-NARROW_BITS = 100
-"""A residual that is zero is known to be smaller than 2^-NARROW_BITS; one that is not is far larger."""
 LIMIT = 12
 """No order is looked for beyond it."""
 
@@ -119,11 +115,46 @@ def proven_order(method: Method) -> int | None:
 def order_of_tableau(method: Tableau, b: Sequence[Coefficient] | None = None) -> int:
     """The order of a Runge-Kutta method, or of its stages with other weights, by Butcher's trees."""
     with ctx.workprec(PROOF_BITS):
-        values = _numbers([*(b or method.b), *(entry for row in method.matrix for entry in row)])
+        values = provable([*(b or method.b), *(entry for row in method.matrix for entry in row)])
         size = method.stages
         weights, entries = values[:size], values[size:]
         matrix = [entries[i * size : (i + 1) * size] for i in range(size)]
-        return _largest(lambda order: _tree_residuals((weights,), (matrix,), order))
+        found = order_by_assumptions(matrix, weights)
+        return found or _largest(lambda order: _tree_residuals((weights,), (matrix,), order))
+
+
+def order_by_assumptions(matrix: Sequence[Sequence[Any]], b: Sequence[Any]) -> int | None:
+    """The order by Butcher's simplifying assumptions, where they decide it: p of the quadrature, if it is reached.
+
+    B(p): sum_i b_i c_i^(k-1) = 1/k for k <= p;  C(q): sum_j a_ij c_j^(k-1) = c_i^k/k for k <= q;
+    D(r): sum_i b_i c_i^(k-1) a_ij = b_j (1 - c_j^k)/k for k <= r.  With p <= q + r + 1 and p <= 2 q + 2 the order is at
+    least p, and at most so because B(p + 1) fails (J. C. Butcher 1964, Math. Comp. 18, 50).
+    """
+    stages = range(len(b))
+    c = [_sum(row) for row in matrix]
+    powers = [[1] * len(b)]
+    for _ in range(2 * len(b)):
+        powers.append([value * node for value, node in zip(powers[-1], c, strict=True)])
+
+    def quadrature(k: int) -> bool:
+        return vanishes(_sum([b[i] * powers[k - 1][i] for i in stages]) * k - 1)
+
+    def stages_of(k: int) -> bool:
+        return all(vanishes(_sum([matrix[i][j] * powers[k - 1][j] for j in stages]) * k - powers[k][i]) for i in stages)
+
+    def columns_of(k: int) -> bool:
+        sums = (_sum([b[i] * powers[k - 1][i] * matrix[i][j] for i in stages]) for j in stages)
+        return all(vanishes(total * k - b[j] * (1 - powers[k][j])) for j, total in enumerate(sums))
+
+    p, q, r = (
+        next(k for k in range(1, 2 * len(b) + 2) if k == 2 * len(b) + 1 or not holds(k)) - 1
+        for holds in (quadrature, stages_of, columns_of)
+    )
+    return p if p <= min(q + r + 1, 2 * q + 2) else None
+
+
+def _sum(values: Sequence[Any]) -> Any:
+    return sum(values[1:], values[0])
 
 
 def order_of_partitioned(method: Partitioned) -> int:
@@ -137,7 +168,7 @@ def order_of_splitting(method: Splitting) -> int:
     Where the method is made for it, the velocity is taken to be linear in the momenta.
     """
     with ctx.workprec(PROOF_BITS):
-        weights = _numbers([weight for _, weight in method.flows])
+        weights = provable([weight for _, weight in method.flows])
         factors = [{kind: weight} for (kind, _), weight in zip(method.flows, weights, strict=True)]
         words = nystrom_words if method.nystrom else lyndon_words
 
@@ -159,25 +190,5 @@ def _tree_residuals(weights: Sequence[Sequence[Any]], matrices: Sequence[Any], o
 def _largest(residuals: Callable[[int], Iterator[Any]]) -> int:
     """The order up to which all residuals vanish."""
     return next(
-        (order - 1 for order in range(1, LIMIT + 1) if not all(_vanishes(value) for value in residuals(order))), LIMIT
+        (order - 1 for order in range(1, LIMIT + 1) if not all(vanishes(value) for value in residuals(order))), LIMIT
     )
-
-
-def _vanishes(value: Any) -> bool:
-    """Whether a residual is zero.
-
-    Raises:
-        PrecisionError: its ball is too wide to tell.
-    """
-    if not isinstance(value, arb):
-        return bool(value == 0)
-    if value.contains(0) and not value.rad() < arb(2) ** -NARROW_BITS:
-        raise PrecisionError("a condition of order was met in balls too wide to decide it.")
-    return bool(value.contains(0))
-
-
-def _numbers(coefficients: Sequence[Coefficient]) -> list[Any]:
-    """The coefficients as they are where arithmetic on them is exact, else in balls."""
-    if all(isinstance(value, (int, Fraction, Algebraic)) for value in coefficients):
-        return list(coefficients)
-    return [0 if value == 0 else enclose(value) for value in coefficients]
