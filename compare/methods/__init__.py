@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from compare.methods.compositions import COMPOSITIONS
 from compare.methods.conservative import CONSERVATIVE
+from compare.methods.diagonally_implicit import DIAGONALLY_IMPLICIT
 from compare.methods.embedded import EMBEDDED
 from compare.methods.explicit import EULER, EXPLICIT, HEUN, MIDPOINT, RK4
 from compare.methods.implicit import IMPLICIT, IMPLICIT_MIDPOINT
@@ -42,6 +43,7 @@ METHODS: tuple[Method, ...] = (
     *COMPOSITIONS,
     *NYSTROM,
     *IMPLICIT,
+    *DIAGONALLY_IMPLICIT,
     *CONSERVATIVE,
     *MULTISTEP,
     *TAYLOR,

@@ -1,8 +1,7 @@
 """Fixed-point iteration for the slopes of implicit methods: no Jacobian, and many evaluations.
 
-K_i = f(y + h sum_j a_ij K_j)  is taken anew stage after stage, each with what is known of the others, from K_i = f(y):
-the nonlinear iteration of Gauss and Seidel.  How many sweeps are taken is decided before the march; whether they were
-enough is read off the last change, after it.
+K_i = f(y + h sum_j a_ij K_j)  is taken anew for all stages at once, from K_i = f(y): Picard's iteration.  How many
+sweeps are taken is decided before the march; whether they were enough is read off the last change, after it.
 """
 
 from __future__ import annotations
@@ -26,22 +25,16 @@ __all__ = ["evaluations", "iterations_of", "jacobians", "slopes"]
 LARGEST_RATE = 0.5
 """Above it the convergence is too slow to be waited for; as many sweeps are taken as there."""
 SPARE_SWEEPS = 2
-DIRECTIONS = (1, -1, 1j)
 
 
 def iterations_of(matrix: Matrix, size: float, bits: int) -> int:
     """Sweeps that a step with this matrix needs, where h times the Lipschitz rate is ``size``.
 
-    On y' = lambda y a sweep multiplies the error by (I - z L)^-1 z U, L the part of the matrix below its diagonal and U
-    the rest: the largest eigenvalue, for z = h lambda along the axes, is what each sweep gains.
+    A sweep multiplies the error by h a J, whose largest eigenvalue is what each gains in the end; the first gain more.
     """
     a = np.array([[float(enclose(entry)) for entry in row] for row in matrix])
-    below = np.tril(a, -1)
-    rates = (
-        np.max(np.abs(np.linalg.eigvals(np.linalg.solve(np.eye(len(a)) - z * below, z * (a - below)))))
-        for z in (size * direction for direction in DIRECTIONS)
-    )
-    return SPARE_SWEEPS + math.ceil(bits / -math.log2(min(max(rates), LARGEST_RATE)))
+    rate = min(size * float(np.max(np.abs(np.linalg.eigvals(a)))), LARGEST_RATE)
+    return SPARE_SWEEPS + math.ceil(bits / -math.log2(rate))
 
 
 def _iterated(matrix: Matrix) -> list[int]:
@@ -73,9 +66,11 @@ def slopes(
     """
     found = [system.derivative(y)] * len(matrices[0])
     changes: list[State] = [(system.number(Q(0)),) * len(y)] * len(found)
+    iterated = _iterated(matrices[0])
     for _ in range(iterations):
-        for i in _iterated(matrices[0]):
-            slope = system.derivative(stage(system, y, h, [matrix[i] for matrix in matrices], found))
+        stages = [stage(system, y, h, [matrix[i] for matrix in matrices], found) for i in iterated]
+        for i, state in zip(iterated, stages, strict=True):
+            slope = system.derivative(state)
             changes[i] = tuple(new - old for new, old in zip(slope, found[i], strict=True))
             found[i] = slope
     return found, changes
