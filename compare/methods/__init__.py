@@ -15,6 +15,7 @@ from compare.methods.implicit import IMPLICIT, IMPLICIT_MIDPOINT
 from compare.methods.multistep import MULTISTEP
 from compare.methods.nystrom import NYSTROM
 from compare.methods.own.step_function import method_at
+from compare.methods.rosenbrock import ROSENBROCK
 from compare.methods.symplectic import (
     POSITION_VERLET,
     RUTH3,
@@ -44,6 +45,7 @@ METHODS: tuple[Method, ...] = (
     *NYSTROM,
     *IMPLICIT,
     *DIAGONALLY_IMPLICIT,
+    *ROSENBROCK,
     *CONSERVATIVE,
     *MULTISTEP,
     *TAYLOR,

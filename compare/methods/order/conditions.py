@@ -22,6 +22,7 @@ from typing import TYPE_CHECKING, Any
 
 from compare.methods.kinds.one_step import Splitting, Tableau
 from compare.methods.kinds.partitioned import Partitioned
+from compare.methods.kinds.rosenbrock import Rosenbrock
 from compare.methods.order.algebraic import PROOF_BITS, Q, provable, vanishes
 from compare.methods.order.lyndon_words import coefficient, lyndon_words, nystrom_words
 from compare.methods.order.rooted_trees import ElementaryWeights, density, trees
@@ -41,6 +42,7 @@ __all__ = [
     "order_by_assumptions",
     "order_by_steps",
     "order_of_partitioned",
+    "order_of_rosenbrock",
     "order_of_splitting",
     "order_of_tableau",
     "proven_order",
@@ -108,6 +110,8 @@ def proven_order(method: Method) -> int | None:
         return order_of_splitting(method)
     if isinstance(method, Partitioned):
         return order_of_partitioned(method)
+    if isinstance(method, Rosenbrock):
+        return order_of_rosenbrock(method)
     own = getattr(method, "proven_order", None)
     return own() if own is not None else None
 
@@ -160,6 +164,20 @@ def _sum(values: Sequence[Any]) -> Any:
 def order_of_partitioned(method: Partitioned) -> int:
     """The order of a partitioned Runge-Kutta method, by trees of two colours: for separable systems and all others."""
     return _largest(lambda order: _tree_residuals((method.b, method.b), (method.matrix, method.hat), order))
+
+
+def order_of_rosenbrock(method: Rosenbrock, m: Sequence[Coefficient] | None = None) -> int:
+    """The order of a Rosenbrock method, or of its stages with other weights, by trees.
+
+    The Jacobian stands at the beginning of the step: where a vertex has one branch only its weights are beta_ij,
+    elsewhere alpha_ij (E. Hairer and G. Wanner, Solving Ordinary Differential Equations II, 1996, theorem IV.7.4).
+    """
+    with ctx.workprec(PROOF_BITS):
+        slopes, (weights,) = method.slopes(m or method.m)
+        elementary = ElementaryWeights(slopes.alpha, alone=slopes.beta)
+        return _largest(
+            lambda order: (elementary.weight(weights, tree) * density(tree) - 1 for tree in trees(order))
+        )
 
 
 def order_of_splitting(method: Splitting) -> int:
