@@ -221,11 +221,11 @@ def enclose(value: Coefficient | int) -> arb:
     return BALL.number(Fraction(value)) if isinstance(value, (int, Fraction)) else value.ball()
 
 
-def provable(coefficients: Sequence[Coefficient]) -> list[Any]:
+def provable(coefficients: Sequence[Coefficient | arb]) -> list[Any]:
     """The coefficients as they are where arithmetic on them is exact, else in balls at the precision in force."""
     if all(isinstance(value, (int, Fraction, Algebraic)) for value in coefficients):
         return list(coefficients)
-    return [0 if value == 0 else enclose(value) for value in coefficients]
+    return [value if isinstance(value, arb) else 0 if value == 0 else enclose(value) for value in coefficients]
 
 
 def vanishes(value: Any) -> bool:

@@ -21,7 +21,9 @@ from reference.arithmetic.precision import ctx
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-__all__ = ["STABILITY_BITS", "Stability"]
+    from compare.methods.kinds.rosenbrock import Rosenbrock
+
+__all__ = ["Stability", "stability_of_rosenbrock"]
 
 Polynomial: TypeAlias = list[Any]
 """Coefficients, the constant first, the last of them not zero; empty for zero."""
@@ -61,6 +63,13 @@ class Stability:
     def l_stable(self) -> bool:
         """Whether it is A-stable, and R(z) vanishes at infinity."""
         return self.a_stable and len(self.numerator) < len(self.denominator)
+
+
+def stability_of_rosenbrock(method: Rosenbrock) -> Stability:
+    """That of the Runge-Kutta method with the matrix beta: on a linear equation the two are the same."""
+    with ctx.workprec(STABILITY_BITS):
+        slopes, (weights,) = method.slopes(method.m)
+        return Stability([[*row, *[0] * (method.stages - len(row))] for row in slopes.beta], weights)
 
 
 def _positive(value: Any) -> bool:
