@@ -11,6 +11,7 @@ from compare.methods.conservative import CONSERVATIVE
 from compare.methods.diagonally_implicit import DIAGONALLY_IMPLICIT
 from compare.methods.embedded import EMBEDDED
 from compare.methods.explicit import EULER, EXPLICIT, HEUN, MIDPOINT, RK4
+from compare.methods.extrapolation import EXTRAPOLATION
 from compare.methods.implicit import IMPLICIT, IMPLICIT_MIDPOINT
 from compare.methods.multistep import MULTISTEP
 from compare.methods.nystrom import NYSTROM
@@ -40,6 +41,7 @@ __all__ = ["DEFAULT", "METHODS", "find", "own_methods"]
 METHODS: tuple[Method, ...] = (
     *EXPLICIT,
     *EMBEDDED,
+    *EXTRAPOLATION,
     *SYMPLECTIC,
     *COMPOSITIONS,
     *NYSTROM,
