@@ -1,4 +1,4 @@
-"""Diagonally implicit Runge-Kutta methods, each as printed in its source: SDIRK, and ESDIRK with its first stage explicit.
+"""Diagonally implicit Runge-Kutta methods, each as its source has it: SDIRK, and ESDIRK with a first stage at y.
 
 Their stages are solved one after another.  Coefficients that are published as roundings, in fractions or decimals, are
 the zero of the order conditions and of the simplifying assumptions that the source states, beside what it prints.

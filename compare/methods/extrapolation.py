@@ -2,8 +2,8 @@
 
 With n even, the modified midpoint rule takes n steps H/n over the step H:
 y_1 = y_0 + (H/n) f(y_0),  y_(m+1) = y_(m-1) + 2 (H/n) f(y_m),  and its end is smoothed: (y_(n-1) + 2 y_n + y_(n+1))/4.
-Its error goes in even powers of H/n, so that the k-th column of the scheme of Aitken and Neville, by polynomials, has order 2 k.  See
-E. Hairer, S. P. Nørsett and G. Wanner, Solving Ordinary Differential Equations I (1993), section II.9.
+Its error goes in even powers of H/n, so that the k-th column of the scheme of Aitken and Neville, by polynomials, has
+order 2 k.  See E. Hairer, S. P. Nørsett and G. Wanner, Solving Ordinary Differential Equations I (1993), section II.9.
 """
 
 from __future__ import annotations

@@ -63,8 +63,8 @@ RODAS3 = Rosenbrock(
 class _Decimals:
     """A stiffly accurate method as its code prints it: decimals of a and c, row after row.
 
-    The last ``repeated`` rows of a are the one before with a 1 behind, and so is m of the last; the embedded weights are
-    m without its last entry.
+    The last ``repeated`` rows of a are the one before with a 1 behind, and so is m of the last; the embedded weights
+    are m without its last entry.
 
     Attributes:
         name, order: of the method; that of the embedded weights is one lower.
@@ -102,7 +102,10 @@ class _Decimals:
         ]
         for row, alpha, own in self.sums:
             inner = reduce(add, slopes.alpha[row - 1])
-            residuals += [inner - BALL.number(Q(alpha)), reduce(add, slopes.beta[row - 1]) - inner - BALL.number(Q(own))]
+            residuals += [
+                inner - BALL.number(Q(alpha)),
+                reduce(add, slopes.beta[row - 1]) - inner - BALL.number(Q(own)),
+            ]
         return residuals
 
 
@@ -210,10 +213,14 @@ RODAS5P = _stiffly_accurate(
                 "147.12150275711716 -1.41221402718213 71.68940251302358",
                 "165.43517024871676 -0.4592823456491126 42.90938336958603 -5.961986721573306",
                 "24.854864614690072 -3.0009227002832186 47.4931110020768 5.5814197821558125 -0.6610691825249471",
-                "30.91273214028599 -3.1208243349937974 77.79954646070892 34.28646028294783 -19.097331116725623 "
-                "-28.087943162872662",
-                "37.80277123390563 -3.2571969029072276 112.26918849496327 66.9347231244047 -40.06618937091002 "
-                "-54.66780262877968 -9.48861652309627",
+                (
+                    "30.91273214028599 -3.1208243349937974 77.79954646070892 34.28646028294783 "
+                    "-19.097331116725623 -28.087943162872662"
+                ),
+                (
+                    "37.80277123390563 -3.2571969029072276 112.26918849496327 66.9347231244047 "
+                    "-40.06618937091002 -54.66780262877968 -9.48861652309627"
+                ),
             ),
         ),
         repeated=2,

@@ -22,7 +22,16 @@ if TYPE_CHECKING:
 
     from compare.methods.kinds.protocol import Equation, State
 
-__all__ = ["Elimination", "Matrix", "evaluations", "iterations", "iterations_of", "jacobians", "newton_matrix", "slopes"]
+__all__ = [
+    "Elimination",
+    "Matrix",
+    "evaluations",
+    "iterations",
+    "iterations_of",
+    "jacobians",
+    "newton_matrix",
+    "slopes",
+]
 
 Matrix: TypeAlias = tuple[tuple[Coefficient, ...], ...]
 

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, TypeAlias
 from compare.methods.kinds import fixed_point, newton
 from compare.methods.kinds.increment import advance, increment, part
 from compare.methods.kinds.protocol import Method, OneStep, State, System
-from compare.methods.order.algebraic import PROOF_BITS, Coefficient, Q, enclose, provable, vanishes
+from compare.methods.order.algebraic import PROOF_BITS, Coefficient, Q, provable, vanishes
 from reference.arithmetic.precision import ctx
 from reference.names import unknown
 from reference.once import cached_property

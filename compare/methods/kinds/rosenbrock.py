@@ -1,8 +1,8 @@
 """Rosenbrock methods: linearly implicit, one linear system a stage with the Jacobian at the beginning of the step.
 
-The Jacobian is exact, by dual numbers.  Where the equation depends on the time, that stands in the state, and its column
-of the Jacobian makes of the autonomous form the other one.  See E. Hairer and G. Wanner, Solving Ordinary Differential
-Equations II (1996), section IV.7.
+The Jacobian is exact, by dual numbers.  Where the equation depends on the time, that stands in the state, and its
+column of the Jacobian makes of the autonomous form the other one.  See E. Hairer and G. Wanner, Solving Ordinary
+Differential Equations II (1996), section IV.7.
 """
 
 from __future__ import annotations
@@ -57,7 +57,9 @@ class Rosenbrock(OneStep):
     def __post_init__(self) -> None:
         for table in (self.a, self.c):
             if [len(row) for row in table] != list(range(len(self.m))):
-                raise ValueError(f"{self.name}: rows of {[*map(len, table)]} entries; 0 to {self.stages - 1} are accepted.")
+                raise ValueError(
+                    f"{self.name}: rows of {[*map(len, table)]} entries; 0 to {self.stages - 1} are accepted."
+                )
         for other in self.embedded:
             if len(other.b) != self.stages:
                 raise ValueError(f"{self.name}: {len(other.b)} embedded weights; {self.stages} are accepted.")
@@ -171,7 +173,7 @@ def from_slopes(
     embedded: Sequence[Embedded] = (),
     aliases: tuple[str, ...] = (),
 ) -> Rosenbrock:
-    """The method of (I - gamma h J) k_i = f(y + h sum_j alpha_ij k_j) + h J sum_j gamma_ij k_j,  y+ = y + h sum_i b_i k_i.
+    """The method that is printed in its slopes, k_i = f(y + h sum_j alpha_ij k_j) + h J sum_j gamma_ij k_j, with b.
 
     ``alpha`` is strictly lower triangular; ``gammas`` has the diagonal, the same number throughout.  With
     u_i = h sum_j gamma_ij k_j the products with J go away: a, c and m follow.

@@ -137,7 +137,7 @@ def _width(balls: Sequence[arb]) -> arb:
 
 
 def unit(text: str) -> Fraction:
-    """One unit of the last place of a decimal, such as 1/100 for "0.25"; of a fraction p/q, as near as one comes: 1/q^2."""
+    """One unit of the last place of a decimal, such as 1/100 for "0.25"; of a fraction p/q 1/q^2, as near as it comes."""
     _, fraction, denominator = text.partition("/")
     if fraction:
         return Fraction(1, int(denominator) ** 2)

@@ -1,4 +1,4 @@
-"""Collocation methods: everything follows from the nodes, which are the zeros of a polynomial with rational coefficients.
+"""Collocation methods: everything follows from the nodes, the zeros of a polynomial with rational coefficients.
 
 c_i are the zeros,  a_ij = integral of l_j from 0 to c_i,  b_j = integral of l_j from 0 to 1,  l_j the polynomial of
 Lagrange that is 1 at c_j and 0 at the other nodes.  A node that is rational is exact, the others are enclosed to any

@@ -14,7 +14,6 @@ See E. Hairer, C. Lubich and G. Wanner, Geometric Numerical Integration (2006), 
 
 from __future__ import annotations
 
-from fractions import Fraction
 from functools import reduce
 from math import factorial
 from operator import mul
@@ -31,6 +30,7 @@ from reference.arithmetic.series import jet
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
+    from fractions import Fraction
 
     from compare.methods.kinds.protocol import Method, State
     from compare.methods.order.algebraic import Coefficient
@@ -175,9 +175,7 @@ def order_of_rosenbrock(method: Rosenbrock, m: Sequence[Coefficient] | None = No
     with ctx.workprec(PROOF_BITS):
         slopes, (weights,) = method.slopes(m or method.m)
         elementary = ElementaryWeights(slopes.alpha, alone=slopes.beta)
-        return _largest(
-            lambda order: (elementary.weight(weights, tree) * density(tree) - 1 for tree in trees(order))
-        )
+        return _largest(lambda order: (elementary.weight(weights, tree) * density(tree) - 1 for tree in trees(order)))
 
 
 def order_of_splitting(method: Splitting) -> int:

@@ -1,16 +1,16 @@
 """The stability function of a one-step method, and what it decides: A-stable, L-stable.
 
-On y' = lambda y a step multiplies by R(z), z = h lambda.  That |R| <= 1 in the left half-plane is decided by polynomials
-in any ordered field, rational or algebraic numbers exactly: no pole there by Routh's scheme, and no point of the
-imaginary axis where |R| > 1 by Sturm's theorem.  Where coefficients are zeros known by their enclosures the signs are
-those of balls.  See E. Hairer and G. Wanner, Solving Ordinary Differential Equations II (1996), section IV.3, and
+On y' = lambda y a step multiplies by R(z), z = h lambda.  That |R| <= 1 in the left half-plane is decided by
+polynomials in any ordered field, rational or algebraic numbers exactly: no pole there by Routh's scheme, and no point
+of the imaginary axis where |R| > 1 by Sturm's theorem.  Where coefficients are zeros known by their enclosures the
+signs are those of balls.  See E. Hairer and G. Wanner, Solving Ordinary Differential Equations II (1996), section IV.3, and
 E. Hairer, S. P. Nørsett and G. Wanner, Solving Ordinary Differential Equations I (1993), section I.13.
 """
 
 from __future__ import annotations
 
 from fractions import Fraction
-from itertools import zip_longest
+from itertools import pairwise, zip_longest
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 from flint import arb
@@ -183,4 +183,4 @@ def _positive_zeros(polynomial: Polynomial) -> int:
 
 def _changes(values: Sequence[Any]) -> int:
     signs = [_positive(value) for value in values]
-    return sum(first != second for first, second in zip(signs, signs[1:], strict=False))
+    return sum(first != second for first, second in pairwise(signs))
