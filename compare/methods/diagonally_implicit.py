@@ -58,7 +58,6 @@ TR_BDF2 = Tableau(
     b=(ROOT2 / 4, ROOT2 / 4, G),
     embedded=(Embedded(3, ((4 - ROOT2) / 12, (4 + 3 * ROOT2) / 12, G / 3)),),
     family=FAMILY,
-    aliases=("trbdf2",),
 )  # fmt: skip
 
 G = (3 + ROOT3) / 6

@@ -13,10 +13,16 @@ from typing import TYPE_CHECKING, Any
 from compare.methods.kinds.multistep import LinearMultistep, PredictorCorrector
 from compare.methods.kinds.one_step import Splitting, Tableau
 from compare.methods.kinds.partitioned import Partitioned
+from compare.methods.kinds.rosenbrock import Rosenbrock
 from compare.methods.kinds.stormer import StormerCowell
 from compare.methods.order.algebraic import Algebraic
-from compare.methods.order.conditions import order_of_splitting, order_of_tableau, proven_order
-from compare.methods.order.stability import Stability
+from compare.methods.order.conditions import (
+    order_of_rosenbrock,
+    order_of_splitting,
+    order_of_tableau,
+    proven_order,
+)
+from compare.methods.order.stability import Stability, stability_of_rosenbrock
 from reference.arithmetic.limbs import decimal, exact_decimal, fixed, interval, ziv
 
 if TYPE_CHECKING:
@@ -52,6 +58,8 @@ def exact_form(value: Coefficient) -> str | None:
     """The number exactly, or None where it has no closed form."""
     if isinstance(value, (int, Fraction)):
         return _rational(Fraction(value))
+    if value.rational is not None:
+        return _rational(value.rational)
     return repr(value) if isinstance(value, Algebraic) else None
 
 
@@ -69,7 +77,7 @@ def decimal_form(value: Coefficient, digits: int = DIGITS) -> str:
     if isinstance(value, (int, Fraction)):
         text = exact_decimal(Fraction(value), digits)
         return text.rstrip("0").rstrip(".") if "." in text and "e" not in text else text
-    if isinstance(value, Algebraic) and value.rational is not None:
+    if value.rational is not None:
         return decimal_form(value.rational, digits)
     ((found,),) = ziv(
         lambda _: [[value.ball()]], lambda ball: decimal(interval(ball), digits), 1, 4 * digits + 40, repr(value)
@@ -135,6 +143,7 @@ def describe(method: Method) -> Description:
         *_orders(method),
         ("stages", method.stages),
         *_evaluations(method),
+        *_iterations(method),
         ("symplectic", method.symplectic),
         *((label, getattr(method, name)) for name, label in DERIVED.items() if hasattr(method, name)),
         *_stability(method),
@@ -159,6 +168,8 @@ def _orders(method: Method) -> Iterator[tuple[str, Any]]:
         yield "proven order where velocities are not linear", order_of_splitting(replace(method, nystrom=False))
     if isinstance(method, Tableau) and method.embedded:
         yield "proven embedded orders", tuple(order_of_tableau(method, other.b) for other in method.embedded)
+    if isinstance(method, Rosenbrock) and method.embedded:
+        yield "proven embedded orders", tuple(order_of_rosenbrock(method, other.b) for other in method.embedded)
 
 
 def _evaluations(method: Method) -> Iterator[tuple[str, int]]:
@@ -170,24 +181,41 @@ def _evaluations(method: Method) -> Iterator[tuple[str, int]]:
         yield "evaluations per step", once
     if start:
         yield "evaluations at the start", start
+    if isinstance(method, Rosenbrock):
+        yield "Jacobians per step", method.jacobians(0)
+
+
+def _iterations(method: Method) -> Iterator[tuple[str, str]]:
+    if isinstance(method, Tableau) and not method.explicit:
+        yield "stages solved by", method.solved_by
 
 
 def _stability(method: Method) -> Iterator[tuple[str, bool]]:
-    if isinstance(method, Tableau) and not method.explicit:
+    if isinstance(method, Rosenbrock):
+        stability = stability_of_rosenbrock(method)
+    elif isinstance(method, Tableau) and not method.explicit:
         stability = Stability(method.matrix, method.b)
-        yield "A-stable", stability.a_stable
-        yield "L-stable", stability.l_stable
+    else:
+        return
+    yield "A-stable", stability.a_stable
+    yield "L-stable", stability.l_stable
 
 
 def _needs(method: Method) -> Iterator[tuple[str, str]]:
     if method.separable_only:
         linear = ", and velocities linear in the momenta" if getattr(method, "nystrom", False) else ""
         yield "needs", f"positions apart from momenta{linear}"
+    elif isinstance(method, Rosenbrock) or (isinstance(method, Tableau) and method.jacobians(2)):
+        yield "needs", "the Jacobian of f"
 
 
 def _roots(method: Method) -> Iterator[tuple[str, str]]:
     """What r is, where coefficients are polynomials in a root that has no name of its own."""
-    weights = [weight for _, weight in method.flows] if isinstance(method, Splitting) else []
+    weights: Sequence[Coefficient] = ()
+    if isinstance(method, Splitting):
+        weights = [weight for _, weight in method.flows]
+    elif isinstance(method, Tableau):
+        weights = [entry for row in method.a for entry in row]
     for field in {weight.field for weight in weights if isinstance(weight, Algebraic)}:
         if field.powers[0] == "r":
             powers = ["", *(f"*{power}" for power in (*field.powers, f"r^{field.degree}"))]
@@ -204,6 +232,8 @@ def _tables(method: Method) -> Iterator[Butcher | Rows]:
     elif isinstance(method, Partitioned):
         yield Butcher("positions", method.c, method.matrix, (("b", method.b),))
         yield Butcher("momenta", tuple(map(_sum, method.hat)), method.hat, (("b", method.b),))
+    elif isinstance(method, Rosenbrock):
+        yield Rows("coefficients of the equations for u", ("coefficient", "value"), tuple(_of_rosenbrock(method)))
     elif isinstance(method, Splitting):
         yield Rows("flows, in the order in which they are applied", ("flow", "weight"), method.flows)
     elif isinstance(method, PredictorCorrector):
@@ -214,6 +244,16 @@ def _tables(method: Method) -> Iterator[Butcher | Rows]:
         if isinstance(method, StormerCowell):
             velocity = tuple((-j, weight) for j, weight in enumerate(method.of_velocity))
             yield Rows("weights of the forces in the velocity", ("step", "w"), velocity)
+
+
+def _of_rosenbrock(method: Rosenbrock) -> Iterator[tuple[str, Coefficient]]:
+    """Each by its name; of a and c those that are not zero."""
+    yield "gamma", method.gamma
+    for letter, rows in (("a", method.a), ("c", method.c)):
+        for i, row in enumerate(rows, start=1):
+            yield from ((f"{letter}[{i},{j}]", value) for j, value in enumerate(row, start=1) if value != 0)
+    for title, weights in (("m", method.m), *((f"m, order {other.order}", other.b) for other in method.embedded)):
+        yield from ((f"{title}[{i}]", value) for i, value in enumerate(weights, start=1))
 
 
 def _sum(row: Sequence[Any]) -> Any:

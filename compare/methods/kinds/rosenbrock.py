@@ -68,6 +68,11 @@ class Rosenbrock(OneStep):
     def stages(self) -> int:
         return len(self.m)
 
+    @property
+    def formula(self) -> str:
+        """What a step does, in words for those who have it shown."""
+        return "(I/(gamma h) - J) u_i = f(y + sum_j a_ij u_j) + sum_j (c_ij/h) u_j, where J = f'(y); y + sum_i m_i u_i"
+
     @cached_property
     def used(self) -> tuple[int, ...]:
         """The stages that a step of fixed size needs: not one that serves an error estimate alone."""

@@ -137,7 +137,7 @@ def _width(balls: Sequence[arb]) -> arb:
 
 
 def unit(text: str) -> Fraction:
-    """One unit of the last place of a decimal, such as 1/100 for "0.25"; of a fraction p/q 1/q^2, as near as it comes."""
+    """One unit of the last place of a decimal, such as 1/100 for "0.25"; of a fraction p/q, 1/q^2."""
     _, fraction, denominator = text.partition("/")
     if fraction:
         return Fraction(1, int(denominator) ** 2)
@@ -203,6 +203,11 @@ class Linear:
 
     def __hash__(self) -> int:
         return hash((self.zero, tuple(self.shares.items()), self.constant)) if self.shares else hash(self.constant)
+
+    @property
+    def rational(self) -> Fraction | None:
+        """The number as a fraction, where no share is left."""
+        return None if self.shares else self.constant
 
     def __repr__(self) -> str:
         with ctx.workprec(ISOLATION_BITS):

@@ -3,8 +3,8 @@
 On y' = lambda y a step multiplies by R(z), z = h lambda.  That |R| <= 1 in the left half-plane is decided by
 polynomials in any ordered field, rational or algebraic numbers exactly: no pole there by Routh's scheme, and no point
 of the imaginary axis where |R| > 1 by Sturm's theorem.  Where coefficients are zeros known by their enclosures the
-signs are those of balls.  See E. Hairer and G. Wanner, Solving Ordinary Differential Equations II (1996), section IV.3, and
-E. Hairer, S. P. Nørsett and G. Wanner, Solving Ordinary Differential Equations I (1993), section I.13.
+signs are those of balls.  See E. Hairer and G. Wanner, Solving Ordinary Differential Equations II (1996), section IV.3,
+and E. Hairer, S. P. Nørsett and G. Wanner, Solving Ordinary Differential Equations I (1993), section I.13.
 """
 
 from __future__ import annotations
