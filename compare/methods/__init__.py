@@ -8,8 +8,10 @@ from typing import TYPE_CHECKING
 
 from compare.methods.compositions import COMPOSITIONS
 from compare.methods.conservative import CONSERVATIVE
+from compare.methods.diagonally_implicit import DIAGONALLY_IMPLICIT
 from compare.methods.embedded import EMBEDDED
 from compare.methods.explicit import EULER, EXPLICIT, HEUN, MIDPOINT, RK4
+from compare.methods.extrapolation import EXTRAPOLATION
 from compare.methods.force_gradient import FORCE_GRADIENT
 from compare.methods.implicit import IMPLICIT, IMPLICIT_MIDPOINT
 from compare.methods.many_stages import MANY_STAGES
@@ -18,6 +20,7 @@ from compare.methods.near_integrable import NEAR_INTEGRABLE
 from compare.methods.nystrom import NYSTROM
 from compare.methods.own.step_function import method_at
 from compare.methods.processed import PROCESSED
+from compare.methods.rosenbrock import ROSENBROCK
 from compare.methods.runge_kutta_nystrom import RUNGE_KUTTA_NYSTROM
 from compare.methods.symmetric import SYMMETRIC
 from compare.methods.symplectic import (
@@ -45,6 +48,7 @@ METHODS: tuple[Method, ...] = (
     *EXPLICIT,
     *EMBEDDED,
     *MANY_STAGES,
+    *EXTRAPOLATION,
     *SYMPLECTIC,
     *SYMMETRIC,
     *COMPOSITIONS,
@@ -54,6 +58,8 @@ METHODS: tuple[Method, ...] = (
     *PROCESSED,
     *RUNGE_KUTTA_NYSTROM,
     *IMPLICIT,
+    *DIAGONALLY_IMPLICIT,
+    *ROSENBROCK,
     *CONSERVATIVE,
     *MULTISTEP,
     *TAYLOR,

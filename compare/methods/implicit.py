@@ -4,6 +4,7 @@ from compare.methods.explicit import line, lines
 from compare.methods.kinds.one_step import Tableau
 from compare.methods.kinds.partitioned import Partitioned
 from compare.methods.order.algebraic import Q, root
+from compare.methods.order.collocation import Collocation, legendre
 
 __all__ = [
     "GAUSS4",
@@ -67,6 +68,38 @@ GAUSS6 = Tableau(
     aliases=("gauss_legendre_6", "kuntzmann_butcher6"),
 )  # fmt: skip
 
+_A, _B = Collocation("gauss8", legendre(4)).table()
+
+GAUSS8 = Tableau(
+    name="gauss8", order=8, source="Butcher 1964, Math. Comp. 18, 50",
+    a=_A,
+    b=_B,
+    family=FAMILY,
+    aliases=("gauss_legendre_8", "kuntzmann_butcher8"),
+)  # fmt: skip
+
+_A, _B = Collocation("gauss10", legendre(5)).table()
+
+GAUSS10 = Tableau(
+    name="gauss10", order=10, source="Butcher 1964, Math. Comp. 18, 50",
+    a=_A,
+    b=_B,
+    family=FAMILY,
+    aliases=("gauss_legendre_10",),
+)  # fmt: skip
+
+_A, _B = Collocation("radau15", tuple(a + b for a, b in zip((*legendre(7), 0), legendre(8), strict=True))).table()
+
+RADAU15 = Tableau(
+    name="radau15", order=15,
+    source="Everhart 1985, in Dynamics of Comets, IAU Coll. 83, 185; Rein and Spiegel 2015, MNRAS 446, 1424",
+    a=_A,
+    b=_B,
+    family=FAMILY,
+    aliases=("gauss_radau15", "ias15", "everhart15"),
+    solved_by="fixed-point iteration",
+)  # fmt: skip
+
 RADAU3 = Tableau(
     name="radau3", order=3, source="Ehle 1969, Univ. of Waterloo, Dept. AACS, report CSRR 2010",
     a=lines("5/12 -1/12", "3/4 1/4"),
@@ -97,5 +130,6 @@ LOBATTO_PAIR4 = Partitioned(
 )  # fmt: skip
 
 IMPLICIT = (
-    IMPLICIT_EULER, TRAPEZOID, IMPLICIT_MIDPOINT, GAUSS4, GAUSS6, RADAU3, RADAU5, LOBATTO_PAIR4,
+    IMPLICIT_EULER, TRAPEZOID, IMPLICIT_MIDPOINT, GAUSS4, GAUSS6, GAUSS8, GAUSS10, RADAU3, RADAU5, RADAU15,
+    LOBATTO_PAIR4,
 )  # fmt: skip

@@ -14,8 +14,8 @@ from functools import cache
 from importlib.resources import files
 from typing import Any
 
-from compare.methods.kinds.one_step import EXACT, Embedded, Tableau
-from compare.methods.order.algebraic import Coefficient, Q, root
+from compare.methods.kinds.one_step import Embedded, Tableau
+from compare.methods.order.algebraic import EXACT, Coefficient, Q, root
 
 __all__ = [
     "FEAGIN10",

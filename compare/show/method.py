@@ -12,17 +12,20 @@ from typing import TYPE_CHECKING, Any
 
 from compare.methods.kinds.multistep import LinearMultistep, PredictorCorrector
 from compare.methods.kinds.nystrom import RungeKuttaNystrom
-from compare.methods.kinds.one_step import Processed, Splitting, Stability, Tableau
+from compare.methods.kinds.one_step import Processed, Splitting, Tableau
 from compare.methods.kinds.partitioned import Partitioned
+from compare.methods.kinds.rosenbrock import Rosenbrock
 from compare.methods.kinds.stormer import StormerCowell
 from compare.methods.order.algebraic import Algebraic
 from compare.methods.order.conditions import (
     generalised_order,
     order_of_nystrom,
+    order_of_rosenbrock,
     order_of_splitting,
     order_of_tableau,
     proven_order,
 )
+from compare.methods.order.stability import Stability, stability_of_rosenbrock
 from reference.arithmetic.limbs import decimal, exact_decimal, fixed, interval, ziv
 
 if TYPE_CHECKING:
@@ -143,6 +146,7 @@ def describe(method: Method) -> Description:
         *_orders(method),
         ("stages", method.stages),
         *_evaluations(method),
+        *_iterations(method),
         ("symplectic", method.symplectic),
         *((label, getattr(method, name)) for name, label in DERIVED.items() if hasattr(method, name)),
         *_stability(method),
@@ -174,6 +178,8 @@ def _orders(method: Method) -> Iterator[tuple[str, Any]]:
         yield "proven embedded orders", tuple(order_of_tableau(method, other.b) for other in method.embedded)
     if isinstance(method, RungeKuttaNystrom):
         yield "proven embedded orders", tuple(order_of_nystrom(method, other) for other in method.embedded)
+    if isinstance(method, Rosenbrock) and method.embedded:
+        yield "proven embedded orders", tuple(order_of_rosenbrock(method, other.b) for other in method.embedded)
 
 
 def _evaluations(method: Method) -> Iterator[tuple[str, int]]:
@@ -187,24 +193,41 @@ def _evaluations(method: Method) -> Iterator[tuple[str, int]]:
         yield "evaluations at the start", start
     if isinstance(method, Splitting) and method.linear_velocities_only:
         yield "derivatives of the force along itself per step", method.jacobians(1)
+    if isinstance(method, Rosenbrock):
+        yield "Jacobians per step", method.jacobians(0)
+
+
+def _iterations(method: Method) -> Iterator[tuple[str, str]]:
+    if isinstance(method, Tableau) and not method.explicit:
+        yield "stages solved by", method.solved_by
 
 
 def _stability(method: Method) -> Iterator[tuple[str, bool]]:
-    if isinstance(method, Tableau) and not method.explicit:
+    if isinstance(method, Rosenbrock):
+        stability = stability_of_rosenbrock(method)
+    elif isinstance(method, Tableau) and not method.explicit:
         stability = Stability(method.matrix, method.b)
-        yield "A-stable", stability.a_stable
-        yield "L-stable", stability.l_stable
+    else:
+        return
+    yield "A-stable", stability.a_stable
+    yield "L-stable", stability.l_stable
 
 
 def _needs(method: Method) -> Iterator[tuple[str, str]]:
     if method.separable_only:
         linear = method.linear_velocities_only or getattr(method, "nystrom", False)
         yield "needs", f"positions apart from momenta{', and velocities linear in the momenta' if linear else ''}"
+    elif isinstance(method, Rosenbrock) or (isinstance(method, Tableau) and method.jacobians(2)):
+        yield "needs", "the Jacobian of f"
 
 
 def _roots(method: Method) -> Iterator[tuple[str, str]]:
     """What r is, where coefficients are polynomials in a root that has no name of its own."""
-    weights = [weight for _, weight in method.flows] if isinstance(method, Splitting) else []
+    weights: Sequence[Coefficient] = ()
+    if isinstance(method, Splitting):
+        weights = [weight for _, weight in method.flows]
+    elif isinstance(method, Tableau):
+        weights = [entry for row in method.a for entry in row]
     for field in {weight.field for weight in weights if isinstance(weight, Algebraic)}:
         if field.powers[0] == "r":
             powers = ["", *(f"*{power}" for power in (*field.powers, f"r^{field.degree}"))]
@@ -226,11 +249,10 @@ def _tables(method: Method) -> Iterator[Butcher | Rows]:
         for other in method.embedded:
             weights += [(f"b_bar, order {other.order}", other.b_bar), (f"b, order {other.order}", other.b)]
         yield Butcher("", method.c, method.matrix, tuple(weights))
-    elif isinstance(method, Processed):
-        yield Rows("processor, undone behind the kernel", ("flow", "weight"), method.processor)
-        yield Rows("kernel", ("flow", "weight"), method.kernel)
+    elif isinstance(method, Rosenbrock):
+        yield Rows("coefficients of the equations for u", ("coefficient", "value"), tuple(_of_rosenbrock(method)))
     elif isinstance(method, Splitting):
-        yield Rows("flows, in the order in which they are applied", ("flow", "weight"), method.flows)
+        yield from _flows(method)
     elif isinstance(method, PredictorCorrector):
         yield _steps("predictor", method.predictor)
         yield _steps("corrector", method.corrector)
@@ -239,6 +261,26 @@ def _tables(method: Method) -> Iterator[Butcher | Rows]:
         if isinstance(method, StormerCowell):
             velocity = tuple((-j, weight) for j, weight in enumerate(method.of_velocity))
             yield Rows("weights of the forces in the velocity", ("step", "w"), velocity)
+
+
+def _flows(method: Splitting) -> Iterator[Rows]:
+    """Of a splitting; of one with a processor that and its kernel."""
+    heads = ("flow", "weight")
+    if isinstance(method, Processed):
+        yield Rows("processor, undone behind the kernel", heads, method.processor)
+        yield Rows("kernel", heads, method.kernel)
+    else:
+        yield Rows("flows, in the order in which they are applied", heads, method.flows)
+
+
+def _of_rosenbrock(method: Rosenbrock) -> Iterator[tuple[str, Coefficient]]:
+    """Each by its name; of a and c those that are not zero."""
+    yield "gamma", method.gamma
+    for letter, rows in (("a", method.a), ("c", method.c)):
+        for i, row in enumerate(rows, start=1):
+            yield from ((f"{letter}[{i},{j}]", value) for j, value in enumerate(row, start=1) if value != 0)
+    for title, weights in (("m", method.m), *((f"m, order {other.order}", other.b) for other in method.embedded)):
+        yield from ((f"{title}[{i}]", value) for i, value in enumerate(weights, start=1))
 
 
 def _sum(row: Sequence[Any]) -> Any:

@@ -14,9 +14,11 @@ from compare.measure.order_fit import fit_order
 from compare.measure.truth import Course
 from compare.methods import DEFAULT, METHODS, _plain, find
 from compare.methods.explicit import RK4
+from compare.methods.extrapolation import extrapolated
 from compare.methods.kinds.nystrom import EmbeddedNystrom, RungeKuttaNystrom
 from compare.methods.kinds.one_step import Embedded, Method, Splitting, Tableau
 from compare.methods.kinds.partitioned import Partitioned
+from compare.methods.kinds.rosenbrock import Rosenbrock, from_slopes
 from compare.methods.order.algebraic import Q
 from compare.methods.symplectic import SUZUKI4, VERLET, YOSHIDA4
 from reference import Pendulum
@@ -25,7 +27,8 @@ tables = pytest.mark.parametrize(
     "method", [method for method in METHODS if method.family != "multistep"], ids=lambda method: method.name
 )
 FLOAT128 = precision("float128")
-WIDER = {name: precision("mp:256") for name in ("taylor20", "feagin12", "feagin14")} | {"rkn1210": precision("mp:192")}
+WIDER = {name: precision("mp:256") for name in ("taylor20", "feagin12", "feagin14")}
+WIDER |= {"rkn1210": precision("mp:192"), "radau15": precision("mp:160")}
 """The formats of methods that in binary128 come to rounding before their error falls as it does in the end."""
 STEPS = {
     "sofroniou_spaletta10": (64, 128, 256, 512),  # in more it reaches the rounding floor of binary128
@@ -40,6 +43,10 @@ STEPS = {
     "taylor12": (32, 64, 128, 256, 512),  # rounding, as above
     "rkn1210": (128, 256, 512, 1024),  # its next error lasts longer than its leading one is above that of binary128
     "processed6": (4096, 8192, 16384),  # its next error lasts longer
+    "gauss10": (64, 128, 256, 512),
+    "gbs10": (128, 256, 512, 1024),
+    "gbs10_bulirsch": (128, 256, 512, 1024),
+    "radau15": (32, 64, 128, 256),
 }
 USUAL_STEPS = (256, 512, 1024, 2048, 4096)
 MOTIONS = {
@@ -93,12 +100,17 @@ def test_methods_of_many_names_are_one() -> None:
 
 
 def test_two_tables_are_never_the_same_method() -> None:
-    kinds = (Tableau, Splitting, Partitioned, RungeKuttaNystrom)
+    kinds = (Tableau, Splitting, Partitioned, RungeKuttaNystrom, Rosenbrock)
     one_step = [method for method in METHODS if isinstance(method, kinds)]
-    coefficients = [
-        method.flows if isinstance(method, Splitting) else (method.matrix, method.b, getattr(method, "hat", ()))
-        for method in one_step
-    ]
+
+    def coefficients_of(method: Method) -> object:
+        if isinstance(method, Splitting):
+            return method.flows
+        if isinstance(method, Rosenbrock):
+            return method.gamma, method.a, method.c, method.m
+        return method.matrix, method.b, getattr(method, "hat", ())
+
+    coefficients = [*map(coefficients_of, one_step)]
     for i, table in enumerate(coefficients):
         assert table not in coefficients[:i], one_step[i].name
 
@@ -129,7 +141,10 @@ def test_the_families_of_the_list_are_there() -> None:
         "verner98", "rk8713m", "fehlberg78", "feagin10", "feagin12", "feagin14", "calvo_montijano_randez65",
         "taylor4", "taylor8", "taylor12", "taylor20", "rkn43", "rkn64", "rkn86", "rkn1210", "mclachlan4", "mclachlan6",
         "aba864", "aba1064", "saba4", "sbab4", "sabac4", "sbabc4", "chin4a", "vefrl", "omf4", "omelyan6_gp5",
-        "processed4", "processed6", "processed764",
+        "processed4", "processed6", "processed764", "gauss8", "gauss10", "gauss_radau15", "ias15", "alexander2",
+        "alexander3", "crouzeix3", "crouzeix4", "sdirk4", "tr_bdf2", "kvaerno3", "kvaerno4", "kvaerno5", "kencarp3",
+        "kencarp4", "kencarp5", "ros3p", "rodas", "rodas3", "rodas4", "rodas4p", "rodas5p", "ode23s", "gbs4", "gbs6",
+        "gbs8", "gbs10", "bulirsch_stoer10",
     }  # fmt: skip
 
 
@@ -173,6 +188,16 @@ def test_a_table_that_is_no_method_is_refused() -> None:
         Partitioned("bad", 1, "none", ((Q(1),),), ((Q(1), Q(0)),), (Q(1),))
     with pytest.raises(ValueError, match="the weights b sum to 3"):
         Partitioned("bad", 1, "none", ((Q(1),),), ((Q(1),),), (Q(3),))
+    with pytest.raises(ValueError, match="iteration 'Newton' is unknown, perhaps Newton's method"):
+        Tableau("bad", 1, "none", ((Q(1),),), (Q(1),), solved_by="Newton")
+    with pytest.raises(ValueError, match=r"rows of \[0, 0\] entries; 0 to 1 are accepted"):
+        Rosenbrock("bad", 1, "none", Q(1), ((), ()), ((), (Q(1),)), (Q(1), Q(1)))
+    with pytest.raises(ValueError, match="1 embedded weights; 2 are accepted"):
+        Rosenbrock("bad", 1, "none", Q(1), ((), (Q(1),)), ((), (Q(1),)), (Q(1), Q(1)), embedded=(Embedded(1, (Q(1),)),))
+    with pytest.raises(ValueError, match="the diagonal of gamma has several numbers"):
+        from_slopes("bad", 1, "none", ((), (Q(1),)), ((Q(1),), (Q(1), Q(2))), (Q(1), Q(1)))
+    with pytest.raises(ValueError, match=r"the numbers of steps are \(2, 3\); even ones that rise are accepted"):
+        extrapolated("bad", (2, 3), "none")
 
 
 @pytest.mark.parametrize(

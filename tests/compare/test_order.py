@@ -12,24 +12,28 @@ from compare.methods.explicit import RK4
 from compare.methods.kinds.nystrom import RungeKuttaNystrom
 from compare.methods.kinds.one_step import Method, Splitting, Tableau, compose
 from compare.methods.kinds.partitioned import Partitioned
+from compare.methods.kinds.rosenbrock import Rosenbrock
 from compare.methods.nystrom import NYSTROM
-from compare.methods.order.algebraic import Q
+from compare.methods.order.algebraic import PROOF_BITS, Q, provable, vanishes
 from compare.methods.order.certified_roots import Linear
 from compare.methods.order.conditions import (
     generalised_order,
+    order_by_assumptions,
     order_of_nystrom,
+    order_of_rosenbrock,
     order_of_splitting,
     order_of_tableau,
     proven_order,
 )
 from compare.methods.order.nystrom_trees import nystrom_density, nystrom_trees
 from compare.methods.order.refined import jump
-from compare.methods.order.rooted_trees import trees
+from compare.methods.order.rooted_trees import ElementaryWeights, density, trees
 from compare.methods.runge_kutta_nystrom import RUNGE_KUTTA_NYSTROM
 from compare.methods.symmetric import SYMMETRIC
 from compare.methods.symplectic import VERLET, triple_jump
+from reference.arithmetic.precision import ctx
 
-KINDS = (Tableau, Splitting, Partitioned, RungeKuttaNystrom)
+KINDS = (Tableau, Splitting, Partitioned, RungeKuttaNystrom, Rosenbrock)
 TABLES = [method for method in METHODS if isinstance(method, KINDS)]
 
 
@@ -64,7 +68,61 @@ def test_every_pair_has_embedded_weights() -> None:
         "feagin10": (8,),
         "feagin12": (10,),
         "feagin14": (12,),
+        "gbs4": (2,),
+        "gbs6": (4,),
+        "gbs8": (6,),
+        "gbs10": (8,),
+        "gbs10_bulirsch": (8,),
+        "tr_bdf2": (3,),
+        "hairer_wanner43": (3,),
+        "kvaerno32": (2,),
+        "kvaerno43": (3,),
+        "kvaerno54": (4,),
+        "kencarp32": (2,),
+        "kencarp43": (3,),
+        "kencarp54": (4,),
     }
+
+
+@pytest.mark.parametrize(
+    "method", [method for method in METHODS if isinstance(method, Rosenbrock)], ids=lambda m: m.name
+)
+def test_embedded_weights_of_rosenbrock_methods_have_their_order(method: Rosenbrock) -> None:
+    assert [order_of_rosenbrock(method, other.b) for other in method.embedded] == [e.order for e in method.embedded]
+    assert method.embedded
+
+
+def test_a_rosenbrock_method_without_its_jacobian_is_another_one() -> None:
+    """With every gamma_ij of the slopes halved it is a W-method at best; a slip in one entry of c is seen as well."""
+    rodas = find("rodas3")
+    assert order_of_rosenbrock(replace(rodas, gamma=Q(1, 4))) < rodas.order
+    assert order_of_rosenbrock(replace(rodas, c=(*rodas.c[:3], (Q(1), Q(1), Q(-8, 3))))) < rodas.order
+
+
+@pytest.mark.parametrize(
+    "name", ["gauss4", "gauss6", "gauss8", "radau5", "trapezoid", "alexander2", "euler", "midpoint"]
+)
+def test_simplifying_assumptions_and_trees_prove_the_same_order(name: str) -> None:
+    method = find(name)
+    with ctx.workprec(PROOF_BITS):
+        values = provable([*method.b, *(entry for row in method.matrix for entry in row)])
+        size = method.stages
+        rows = [values[size * i : size * (i + 1)] for i in range(1, size + 1)]
+        assert order_by_assumptions(rows, values[:size]) in {None, method.order}
+        trees_of = ElementaryWeights(rows)
+        missed = [
+            any(not vanishes(trees_of.weight(values[:size], tree) * density(tree) - 1) for tree in trees(order))
+            for order in range(1, method.order + 2)
+        ]
+    assert missed == [False] * method.order + [True]
+
+
+def test_assumptions_leave_open_what_they_do_not_decide() -> None:
+    """RK4 has stage order 1, which is not enough for order 4; the weights alone would be."""
+    rk4 = find("rk4")
+    assert order_by_assumptions(rk4.matrix, rk4.b) in {None, 4}
+    slipped = replace(find("gauss4"), a=((Q(1, 4), Q(0)), (Q(1, 2), Q(1, 4))))
+    assert order_of_tableau(slipped) < 4
 
 
 def test_there_are_as_many_rooted_trees_as_cayley_counted() -> None:

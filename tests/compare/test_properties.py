@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from math import sqrt
 
 import pytest
 from flint import arb
 
 from compare.methods import METHODS, find
-from compare.methods.kinds.one_step import Stability, Tableau, used_stages
-from compare.methods.order.algebraic import Q, enclose
+from compare.methods.kinds.one_step import Tableau, used_stages
+from compare.methods.order.algebraic import Q, enclose, root_of
+from compare.methods.order.stability import Stability, stability_of_rosenbrock
 from reference.arithmetic.precision import ctx
 
 IMPLICIT = {
@@ -21,6 +23,30 @@ IMPLICIT = {
     "gauss6": (True, True, True, False),
     "radau3": (False, False, True, True),
     "radau5": (False, False, True, True),
+    "gauss8": (True, True, True, False),
+    "gauss10": (True, True, True, False),
+    "radau15": (False, False, False, False),
+    "alexander2": (False, False, True, True),
+    "alexander3": (False, False, True, True),
+    "tr_bdf2": (False, False, True, True),
+    "crouzeix3": (False, False, True, False),
+    "crouzeix4": (False, False, True, False),
+    "hairer_wanner43": (False, False, True, True),
+    "kvaerno32": (False, False, True, True),
+    "kvaerno43": (False, False, True, True),
+    "kvaerno54": (False, False, True, True),
+    "kencarp32": (False, False, True, True),
+    "kencarp43": (False, False, True, True),
+    "kencarp54": (False, False, True, True),
+}
+ROSENBROCK = {
+    # name: A-stable, L-stable
+    "rosenbrock23": (True, True),
+    "ros3p": (True, False),
+    "rodas3": (True, True),
+    "rodas4": (True, True),
+    "rodas4p": (True, True),
+    "rodas5p": (True, True),
 }
 
 
@@ -29,6 +55,31 @@ def test_properties_of_implicit_methods_are_those_of_the_books(name: str) -> Non
     method = find(name)
     stability = Stability(method.matrix, method.b)
     assert (method.symplectic, method.symmetric, stability.a_stable, stability.l_stable) == IMPLICIT[name]
+
+
+@pytest.mark.parametrize("name", ROSENBROCK)
+def test_the_stability_of_rosenbrock_methods_is_that_of_the_papers(name: str) -> None:
+    stability = stability_of_rosenbrock(find(name))
+    assert (stability.a_stable, stability.l_stable) == ROSENBROCK[name]
+
+
+def test_a_gamma_of_kvaernos_that_is_not_the_root_is_not_l_stable() -> None:
+    """SUNDIALS advances the pair 4(3) with the gamma of order 3, and says so: A-stable alone."""
+    g = root_of((-1, 9, -18, 6), 0.4358665)
+    table = Tableau("ends", 1, "none", ((Q(0), Q(0)), (1 - g, g)), (1 - g, g))
+    stability = Stability(table.matrix, table.b)
+    assert not stability.a_stable
+    table = replace(find("alexander3"), a=(*find("alexander3").a[:2], (Q(1, 3), 1 - g - Q(1, 3), g)))
+    assert not Stability(table.matrix, table.b).l_stable
+
+
+def test_signs_on_the_axis_are_found_beside_zeros_of_even_multiplicity() -> None:
+    """R(z) = (1 + z/2)^2/(1 - z/2)^2 stays on the unit circle; (1 + 0.51 z)/(1 - z/2) leaves it."""
+    twice = Tableau("twice", 2, "none", ((Q(1, 4), Q(0)), (Q(1, 2), Q(1, 4))), (Q(1, 2), Q(1, 2)))
+    assert Stability(twice.matrix, twice.b).a_stable
+    assert not Stability(twice.matrix, twice.b).l_stable
+    beyond = Tableau("beyond", 1, "none", ((Q(0), Q(0)), (Q(51, 101), Q(50, 101))), (Q(51, 101), Q(50, 101)))
+    assert not Stability(beyond.matrix, beyond.b).a_stable
 
 
 def test_the_lobatto_pair_is_symplectic_and_symmetric() -> None:
@@ -53,9 +104,11 @@ def test_the_stability_function_is_what_a_step_multiplies_by() -> None:
     determinant = (1 - z * a) * (1 - z * d) - z * z * b * c
     slopes = ((1 - z * d) + z * b) / determinant, ((1 - z * a) + z * c) / determinant
     stability = Stability(method.matrix, method.b)
-    found = sum(int(c) * z**i for i, c in enumerate(stability.numerator.coeffs())) / sum(
-        int(c) * z**i for i, c in enumerate(stability.denominator.coeffs())
+    above, below = (
+        sum(float(enclose(c)) * z**i for i, c in enumerate(polynomial))
+        for polynomial in (stability.numerator, stability.denominator)
     )
+    found = above / below
     assert found == pytest.approx(1 + z * sum(slopes) / 2, abs=1e-14)
 
 
@@ -75,7 +128,11 @@ def test_a_stage_that_serves_the_estimate_alone_is_not_evaluated() -> None:
 
 def test_first_stages_are_seen_to_be_last_ones() -> None:
     same = {method.name for method in METHODS if isinstance(method, Tableau) and method.fsal}
-    assert same == {"bogacki_shampine32", "dormand_prince54", "tsitouras54", "trapezoid"}
+    assert same == {
+        "bogacki_shampine32", "dormand_prince54", "tsitouras54", "bogacki_shampine54", "verner65",
+        "calvo_montijano_randez65", "trapezoid", "tr_bdf2", "kvaerno32", "kvaerno43", "kvaerno54", "kencarp32",
+        "kencarp43", "kencarp54",
+    }  # fmt: skip
     assert find("verlet").fsal
     assert not find("position_verlet").fsal
 

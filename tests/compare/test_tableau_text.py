@@ -45,11 +45,13 @@ def test_the_facts_stand_before_the_tableau() -> None:
         "stages": "3",
         "evaluations with one iteration": "4",
         "evaluations per further iteration": "3",
+        "stages solved by": "Newton's method",
         "symplectic": "yes",
         "symmetric": "yes",
         "FSAL": "no",
         "A-stable": "yes",
         "L-stable": "no",
+        "needs": "the Jacobian of f",
         "aliases": "gauss_legendre_6, kuntzmann_butcher6",
         "source": "Butcher 1964, Math. Comp. 18, 50",
     }

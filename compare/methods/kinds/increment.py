@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from compare.methods.kinds.protocol import Equation, State, System
     from compare.methods.order.algebraic import Coefficient
 
-__all__ = ["advance", "increment", "part", "turned"]
+__all__ = ["advance", "increment", "part", "stage", "turned"]
 
 
 def part(system: Equation, weight: Coefficient, h: Any) -> Any:
@@ -42,3 +42,15 @@ def turned(system: System, force: State) -> State:
     zero = system.number(Q(0))
     still = system.velocity((zero,) * len(force))
     return tuple(rate - rest for rate, rest in zip(system.velocity(force), still, strict=True))
+
+
+def stage(system: Equation, y: State, h: Any, rows: Sequence[Sequence[Coefficient]], slopes: Sequence[State]) -> State:
+    """y + sum_j (h weights_j) slopes_j, with weights for each component of their own."""
+    moved = []
+    for c, row in enumerate(rows):
+        value = y[c]
+        for weight, slope in zip(row, slopes, strict=True):
+            if weight != 0:
+                value = value + part(system, weight, h) * slope[c]
+        moved.append(value)
+    return tuple(moved)

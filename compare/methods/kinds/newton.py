@@ -4,6 +4,9 @@ K_i = f(Y_i),  Y_i = y + h sum_j a_ij K_j  is solved from K_i = f(y) with a Jaco
 so that the error of an iteration is proportional to the square of the one before; the last iteration, which moves by
 roundings alone, takes the Jacobians of the one before.  How many iterations are taken is decided before the march;
 whether they were enough is read off the last change, after it.
+
+Stages that depend on one another are solved together, and such groups one after another: all stages of a Gauss method
+at once, those of a diagonally implicit method each by itself.
 """
 
 from __future__ import annotations
@@ -11,15 +14,24 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Any, TypeAlias
 
-from compare.methods.kinds.increment import part
-from compare.methods.order.algebraic import Coefficient, Q
+from compare.methods.kinds.increment import part, stage
+from compare.methods.order.algebraic import Coefficient, Q, enclose
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from compare.methods.kinds.protocol import Equation, State
 
-__all__ = ["Elimination", "Matrix", "evaluations", "iterations", "jacobians", "newton_matrix", "slopes"]
+__all__ = [
+    "Elimination",
+    "Matrix",
+    "evaluations",
+    "iterations",
+    "iterations_of",
+    "jacobians",
+    "newton_matrix",
+    "slopes",
+]
 
 Matrix: TypeAlias = tuple[tuple[Coefficient, ...], ...]
 
@@ -42,19 +54,35 @@ def iterations(size: float, bits: int) -> int:
     return count
 
 
-def _implicit(matrices: Sequence[Matrix]) -> list[int]:
-    """The stages that depend on any slope; the others stand at y."""
-    return [i for i in range(len(matrices[0])) if any(entry != 0 for matrix in matrices for entry in matrix[i])]
+def iterations_of(matrix: Matrix, size: float, bits: int) -> int:
+    """Iterations that a step with this matrix needs, where h times the Lipschitz rate is ``size``."""
+    return iterations(size * max(sum(abs(float(enclose(entry))) for entry in row) for row in matrix), bits)
+
+
+def _groups(matrices: Sequence[Matrix]) -> list[tuple[list[int], bool]]:
+    """The stages that are solved together, in order, and whether they depend on themselves; those at y are left out."""
+    stages = range(len(matrices[0]))
+    needs = [[j for j in stages if any(matrix[i][j] != 0 for matrix in matrices)] for i in stages]
+    groups: list[tuple[list[int], bool]] = []
+    begin, last = 0, -1
+    for i in stages:
+        last = max([last, i, *needs[i]])
+        if i == last:
+            members = [k for k in range(begin, i + 1) if needs[k]]
+            if members:
+                groups.append((members, any(j >= begin for k in members for j in needs[k])))
+            begin = i + 1
+    return groups
 
 
 def evaluations(matrix: Matrix, iterations: int) -> int:
-    """Evaluations of f in a step: at y, and at every implicit stage in every iteration."""
-    return 1 + len(_implicit([matrix])) * iterations
+    """Evaluations of f in a step: at y, at every explicit stage, and at every implicit one in every iteration."""
+    return 1 + sum(len(members) * (iterations if implicit else 1) for members, implicit in _groups([matrix]))
 
 
 def jacobians(matrix: Matrix, iterations: int) -> int:
     """Evaluations of the Jacobian in a step."""
-    return len(_implicit([matrix])) * max(iterations - 1, 0)
+    return sum(len(members) for members, implicit in _groups([matrix]) if implicit) * max(iterations - 1, 0)
 
 
 def slopes(
@@ -72,36 +100,40 @@ def slopes(
     found = [system.derivative(y)] * len(matrices[0])
     zero = system.number(Q(0))
     changes: list[State] = [(zero,) * len(y)] * len(found)
-    implicit = _implicit(matrices)
-    for iteration in range(iterations):
-        stages = [_stage(system, y, h, [matrix[i] for matrix in matrices], found) for i in implicit]
-        right = [_minus(system.derivative(stage), found[i]) for stage, i in zip(stages, implicit, strict=True)]
-        if iteration < iterations - 1:
-            system_of_slopes = newton_matrix(
-                system, h, matrices, implicit, [system.jacobian(stage) for stage in stages]
-            )
-            elimination = Elimination(system_of_slopes)
-        moves = elimination.solve([residual[c] for c in range(len(y)) for residual in right])
-        for place, i in enumerate(implicit):
-            changes[i] = tuple(moves[place :: len(implicit)])
-            found[i] = tuple(slope + change for slope, change in zip(found[i], changes[i], strict=True))
+    for members, implicit in _groups(matrices):
+        if implicit:
+            _solve(system, y, h, matrices, members, iterations, found, changes)
+        else:
+            (i,) = members
+            found[i] = system.derivative(stage(system, y, h, [matrix[i] for matrix in matrices], found))
     return found, changes
+
+
+def _solve(
+    system: Equation,
+    y: State,
+    h: Any,
+    matrices: Sequence[Matrix],
+    members: Sequence[int],
+    iterations: int,
+    found: list[State],
+    changes: list[State],
+) -> None:
+    """Find the slopes of stages that depend on one another, and what the last iteration changed of them."""
+    for iteration in range(iterations):
+        stages = [stage(system, y, h, [matrix[i] for matrix in matrices], found) for i in members]
+        right = [_minus(system.derivative(state), found[i]) for state, i in zip(stages, members, strict=True)]
+        if iteration < iterations - 1:
+            slopes_of_f = [system.jacobian(state) for state in stages]
+            elimination = Elimination(newton_matrix(system, h, matrices, members, slopes_of_f))
+        moves = elimination.solve([residual[c] for c in range(len(y)) for residual in right])
+        for place, i in enumerate(members):
+            changes[i] = tuple(moves[place :: len(members)])
+            found[i] = tuple(slope + change for slope, change in zip(found[i], changes[i], strict=True))
 
 
 def _minus(a: State, b: State) -> State:
     return tuple(first - second for first, second in zip(a, b, strict=True))
-
-
-def _stage(system: Equation, y: State, h: Any, rows: Sequence[Sequence[Coefficient]], found: Sequence[State]) -> State:
-    """Y = y + h sum_j a_j K_j, with weights for each component of their own."""
-    moved = []
-    for c, row in enumerate(rows):
-        value = y[c]
-        for weight, slope in zip(row, found, strict=True):
-            if weight != 0:
-                value = value + part(system, weight, h) * slope[c]
-        moved.append(value)
-    return tuple(moved)
 
 
 def newton_matrix(

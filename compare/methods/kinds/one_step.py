@@ -1,8 +1,7 @@
 """One-step methods: frozen tables, the step that follows from each in any arithmetic, and what else follows.
 
-Whether a Runge-Kutta method is symplectic, symmetric, A-stable or L-stable is decided by its matrix and its weights:
-E. Hairer, C. Lubich and G. Wanner, Geometric Numerical Integration (2006), sections V.2 and VI.4, and E. Hairer and
-G. Wanner, Solving Ordinary Differential Equations II (1996), section IV.3.
+Whether a Runge-Kutta method is symplectic or symmetric is decided by its matrix and its weights: E. Hairer, C. Lubich
+and G. Wanner, Geometric Numerical Integration (2006), sections V.2 and VI.4.
 """
 
 from __future__ import annotations
@@ -10,28 +9,25 @@ from __future__ import annotations
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import groupby, pairwise
-from math import lcm
 from typing import TYPE_CHECKING, Any, ClassVar, TypeAlias
 
-from flint import fmpz_poly
-
-from compare.methods.kinds import newton
+from compare.methods.kinds import fixed_point, newton
 from compare.methods.kinds.increment import advance, increment, part, turned
 from compare.methods.kinds.protocol import Method, OneStep, State, System
-from compare.methods.order.algebraic import Algebraic, Coefficient, Q, enclose
+from compare.methods.order.algebraic import EXACT, PROOF_BITS, Coefficient, Q, provable, vanishes
+from reference.arithmetic.precision import ctx
+from reference.names import unknown
 from reference.once import cached_property
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
 __all__ = [
-    "EXACT",
     "Embedded",
     "Method",
     "OneStep",
     "Processed",
     "Splitting",
-    "Stability",
     "State",
     "System",
     "Tableau",
@@ -44,23 +40,28 @@ __all__ = [
 ]
 
 Matrix: TypeAlias = "Sequence[Sequence[Any]]"
-Polynomial: TypeAlias = list[Fraction]
-"""Coefficients, the constant first."""
-EXACT = Q(0)
-"""What exact coefficients miss of the order conditions."""
 
 
 def is_symplectic(matrix: Matrix, hat: Matrix, b: Sequence[Any]) -> bool:
     """Whether b_i hat_ij + b_j a_ji = b_i b_j for all i and j; ``hat`` is the matrix itself where there is one."""
-    stages = range(len(b))
-    return all(b[i] * hat[i][j] + b[j] * matrix[j][i] == b[i] * b[j] for i in stages for j in stages)
+    with ctx.workprec(PROOF_BITS):
+        w, *rows = _provable_rows([b, *matrix, *hat])
+        a, other, stages = rows[: len(b)], rows[len(b) :], range(len(b))
+        return all(vanishes(w[i] * other[i][j] + w[j] * a[j][i] - w[i] * w[j]) for i in stages for j in stages)
 
 
 def is_symmetric(matrix: Matrix, b: Sequence[Any]) -> bool:
     """Whether the method is its own adjoint: a_ij + a_(s+1-i)(s+1-j) = b_j for all i and j."""
-    last = len(b) - 1
-    stages = range(len(b))
-    return all(matrix[i][j] + matrix[last - i][last - j] == b[j] for i in stages for j in stages)
+    with ctx.workprec(PROOF_BITS):
+        w, *a = _provable_rows([b, *matrix])
+        last, stages = len(b) - 1, range(len(b))
+        return all(vanishes(a[i][j] + a[last - i][last - j] - w[j]) for i in stages for j in stages)
+
+
+def _provable_rows(rows: Matrix) -> list[list[Any]]:
+    """Rows of one length, all exact or all in balls."""
+    values, width = provable([entry for row in rows for entry in row]), len(rows[0])
+    return [values[i : i + width] for i in range(0, len(values), width)]
 
 
 def used_stages(matrix: Matrix, b: Sequence[Any]) -> tuple[int, ...]:
@@ -71,66 +72,8 @@ def used_stages(matrix: Matrix, b: Sequence[Any]) -> tuple[int, ...]:
     return tuple(sorted(used))
 
 
-class Stability:
-    """The stability function R(z) = det(I - z a + z 1 b^T)/det(I - z a) of a method.
-
-    Attributes:
-        numerator, denominator: integer polynomials without a common factor.
-    """
-
-    def __init__(self, matrix: Matrix, b: Sequence[Any]) -> None:
-        shifted = [[entry - weight for entry, weight in zip(row, b, strict=True)] for row in matrix]
-        above, below = _determinant(shifted), _determinant(matrix)
-        scale = lcm(*(value.denominator for value in [*above, *below]))
-        first, second = (fmpz_poly([int(value * scale) for value in p]) for p in (above, below))
-        common = first.gcd(second)
-        self.numerator, self.denominator = first // common, second // common
-
-    @property
-    def a_stable(self) -> bool:
-        """Whether |R(z)| <= 1 where Re z <= 0: so on the imaginary axis, and no pole to its left or on it."""
-        if any(not value.real > 0 for value, _ in self.denominator.complex_roots()):
-            return False
-        excess = _on_the_axis(self.denominator) - _on_the_axis(self.numerator)
-        return excess == 0 or (excess[excess.degree()] > 0 and not _changes_sign(excess))
-
-    @property
-    def l_stable(self) -> bool:
-        """Whether it is A-stable, and R(z) vanishes at infinity."""
-        return self.a_stable and self.numerator.degree() < self.denominator.degree()
-
-
-def _determinant(matrix: Matrix) -> Polynomial:
-    """det(I - z a) in powers of z, by Faddeev and LeVerrier; rational, as it is for every method of this package."""
-    size = range(len(matrix))
-    coefficients: list[Any] = [Fraction(1)]
-    product: list[list[Any]] = [[Fraction(0)] * len(matrix) for _ in size]
-    for k in range(1, len(matrix) + 1):
-        inner = [[product[i][j] + (coefficients[-1] if i == j else 0) for j in size] for i in size]
-        product = [[sum((matrix[i][m] * inner[m][j] for m in size), Fraction(0)) for j in size] for i in size]
-        coefficients.append(-sum((product[i][i] for i in size), Fraction(0)) / k)
-    return [_rational(value) for value in coefficients]
-
-
-def _rational(value: Fraction | Algebraic) -> Fraction:
-    fraction = value.rational if isinstance(value, Algebraic) else value
-    if fraction is None:
-        raise ArithmeticError(f"the stability function has the coefficient {value}, which is not rational.")
-    return fraction
-
-
-def _on_the_axis(polynomial: fmpz_poly) -> fmpz_poly:
-    """|p(iy)|^2 as a polynomial in x = y^2."""
-    mirrored = fmpz_poly([int(c) * (-1) ** i for i, c in enumerate(polynomial.coeffs())])
-    product = polynomial * mirrored
-    return fmpz_poly([int(c) * (-1) ** i for i, c in enumerate(product.coeffs()[::2])])
-
-
-def _changes_sign(polynomial: fmpz_poly) -> bool:
-    """Whether a polynomial has a root of odd multiplicity on the positive axis."""
-    odd = (factor for factor, times in polynomial.factor()[1] if times % 2)
-    roots = [value for factor in odd if factor.degree() > 0 for value, _ in factor.complex_roots()]
-    return any(value.imag == 0 and value.real > 0 for value in roots)
+ITERATIONS = {"Newton's method": newton, "fixed-point iteration": fixed_point}
+"""How the slopes of implicit stages are found."""
 
 
 @dataclass(frozen=True)
@@ -147,12 +90,14 @@ class Tableau(OneStep):
 
     ``a`` is given as printed: for an explicit method the strictly lower rows (the first empty).  ``c`` is derived from
     c_i = sum_j a_ij; ``nodes`` are the printed ones where they are others, to be shown: the equations hold no time.
+    Implicit stages are ``solved_by`` "Newton's method" or by "fixed-point iteration", to rounding either way.
 
     Coefficients that are decimals as printed miss the order conditions by what was rounded off: gamma(t) sum_i b_i
     Phi_i(t) and its like with embedded weights differ from 1 by ``residual`` at most, which is 0 of exact ones.
 
     Raises:
-        ValueError: the shapes of ``a``, ``b`` and the embedded weights do not match, or weights do not sum to 1.
+        ValueError: the shapes of ``a``, ``b`` and the embedded weights do not match, weights do not sum to 1, or
+            there is no such iteration.
     """
 
     name: str
@@ -167,8 +112,11 @@ class Tableau(OneStep):
     embedded: tuple[Embedded, ...] = ()
     nodes: tuple[Coefficient, ...] = ()
     residual: Fraction = EXACT
+    solved_by: str = "Newton's method"
 
     def __post_init__(self) -> None:
+        if self.solved_by not in ITERATIONS:
+            raise ValueError(f"{self.name}: {unknown('iteration', self.solved_by, list(ITERATIONS))}")
         if len(self.a) != len(self.b) or any(len(row) > len(self.b) for row in self.a):
             raise ValueError(
                 f"{self.name}: a has {len(self.a)} rows and b {len(self.b)} weights; equally many are accepted."
@@ -219,21 +167,22 @@ class Tableau(OneStep):
         """Whether the last stage is evaluated where the next step begins."""
         return self.stages > 1 and self.matrix[-1] == self.b and all(entry == 0 for entry in self.matrix[0])
 
+    @property
+    def _iteration(self) -> Any:
+        return ITERATIONS[self.solved_by]
+
     def iterations(self, size: float, bits: int) -> int:
-        if self.explicit:
-            return 0
-        norm = max(sum(abs(float(enclose(entry))) for entry in row) for row in self.matrix)
-        return newton.iterations(size * norm, bits)
+        return 0 if self.explicit else int(self._iteration.iterations_of(self.matrix, size, bits))
 
     def evaluations(self, iterations: int) -> tuple[int, int]:
-        return (len(self.used) if self.explicit else newton.evaluations(self.matrix, iterations)), 0
+        return (len(self.used) if self.explicit else self._iteration.evaluations(self.matrix, iterations)), 0
 
     def jacobians(self, iterations: int) -> int:
-        return newton.jacobians(self.matrix, iterations)
+        return int(self._iteration.jacobians(self.matrix, iterations))
 
     def step(self, system: System, y: State, h: Any, iterations: int = 0) -> tuple[State, State]:
         if not self.explicit:
-            solved, changes = newton.slopes(system, y, h, (self.matrix,) * len(y), iterations)
+            solved, changes = self._iteration.slopes(system, y, h, (self.matrix,) * len(y), iterations)
             return advance(system, y, h, self.b, solved), increment(system, h, self.b, changes)
         slopes: list[State] = []
         for i, row in enumerate(self.matrix):

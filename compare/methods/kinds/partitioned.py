@@ -9,7 +9,7 @@ from compare.methods.kinds import newton
 from compare.methods.kinds.increment import advance, increment
 from compare.methods.kinds.one_step import is_symmetric, is_symplectic
 from compare.methods.kinds.protocol import OneStep, State, System
-from compare.methods.order.algebraic import Coefficient, Q, enclose
+from compare.methods.order.algebraic import Coefficient, Q
 from reference.once import cached_property
 
 __all__ = ["Partitioned"]
@@ -62,8 +62,7 @@ class Partitioned(OneStep):
         return is_symmetric(self.matrix, self.b) and is_symmetric(self.hat, self.b)
 
     def iterations(self, size: float, bits: int) -> int:
-        rows = (*self.matrix, *self.hat)
-        return newton.iterations(size * max(sum(abs(float(enclose(entry))) for entry in row) for row in rows), bits)
+        return newton.iterations_of((*self.matrix, *self.hat), size, bits)
 
     @cached_property
     def _either(self) -> tuple[tuple[Coefficient, ...], ...]:

@@ -10,21 +10,41 @@ from __future__ import annotations
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import lru_cache
-from typing import TYPE_CHECKING, Protocol, TypeAlias
+from typing import TYPE_CHECKING, Any, Protocol, TypeAlias
 
 from flint import arb, fmpq, fmpq_poly, fmpz_poly
 
 from reference.arithmetic.namespaces import BALL
-from reference.arithmetic.precision import ctx
+from reference.arithmetic.precision import PrecisionError, ctx
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from compare.methods.order.certified_roots import Linear
 
-__all__ = ["Algebraic", "Coefficient", "Enclosed", "Field", "Q", "enclose", "root", "root_of"]
+__all__ = [
+    "EXACT",
+    "NARROW_BITS",
+    "PROOF_BITS",
+    "Algebraic",
+    "Coefficient",
+    "Enclosed",
+    "Field",
+    "Q",
+    "enclose",
+    "provable",
+    "root",
+    "root_of",
+    "vanishes",
+]
+
+PROOF_BITS = 300
+NARROW_BITS = 100
+"""A number that is zero is known to be smaller than 2^-NARROW_BITS; one that is not is far larger."""
 
 Q = Fraction
+EXACT = Q(0)
+"""What exact coefficients miss of the conditions that they are to satisfy."""
 
 
 class Enclosed(Protocol):
@@ -202,3 +222,31 @@ def root_of(coefficients: tuple[int, ...], near: float) -> Algebraic:
 def enclose(value: Coefficient | int) -> arb:
     """Return a ball around an exact coefficient at the precision in force."""
     return BALL.number(Fraction(value)) if isinstance(value, (int, Fraction)) else value.ball()
+
+
+def provable(coefficients: Sequence[Coefficient | arb], most: Fraction = EXACT) -> list[Any]:
+    """The coefficients as they are where arithmetic on them is exact, else in balls at the precision in force.
+
+    In balls too are coefficients that miss what they are to satisfy, by ``most``, so that exactness is of no use.
+    """
+    if not most and all(isinstance(value, (int, Fraction, Algebraic)) for value in coefficients):
+        return list(coefficients)
+    return [value if isinstance(value, arb) else 0 if value == 0 else enclose(value) for value in coefficients]
+
+
+def vanishes(value: Any, bound: arb | None = None) -> bool:
+    """Whether what was computed of coefficients that are ``provable`` is zero, or where there is a bound below it.
+
+    Raises:
+        PrecisionError: its ball is too wide to tell.
+    """
+    if not isinstance(value, arb):
+        return bool(value == 0)
+    if bound is not None:
+        size = abs(value)
+        if not (size < bound or size > bound):
+            raise PrecisionError("a condition was met in balls too wide to decide it.")
+        return bool(size < bound)
+    if value.contains(0) and not value.rad() < arb(2) ** -NARROW_BITS:
+        raise PrecisionError("a condition was met in balls too wide to decide it.")
+    return bool(value.contains(0))

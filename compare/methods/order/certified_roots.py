@@ -8,7 +8,7 @@ the only one by an interval Newton step, and is enclosed to any precision by mor
 from __future__ import annotations
 
 from fractions import Fraction
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Protocol
 
 from flint import arb, arb_mat
 
@@ -20,7 +20,7 @@ from reference.once import cached_property
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
 
-__all__ = ["Linear", "Zero", "ZeroError"]
+__all__ = ["Coordinates", "Linear", "Zero", "ZeroError"]
 
 ISOLATION_BITS, STILL_BITS, BOX_BITS = 256, 192, 128
 NEWTON_STEPS = 40
@@ -147,13 +147,22 @@ def unit(text: str) -> Fraction:
     return Fraction(10) ** (int(exponent or 0) - len(digits.partition(".")[2]))
 
 
+class Coordinates(Protocol):
+    """Real numbers that are known together, by their enclosures; equal where they are the same."""
+
+    @property
+    def name(self) -> str: ...
+    def enclosures(self) -> list[arb]:
+        """Balls around them, as narrow as the precision in force allows."""
+
+
 class Linear:
     """constant + sum of shares[i] times coordinate i of a zero, its shares and constant rational.
 
     Two of them are equal where they are the same combination; none with a share left is rational.
     """
 
-    def __init__(self, zero: Zero, shares: Mapping[int, Fraction], constant: Fraction = Fraction(0)) -> None:
+    def __init__(self, zero: Coordinates, shares: Mapping[int, Fraction], constant: Fraction = Fraction(0)) -> None:
         self.zero, self.constant = zero, constant
         self.shares = {i: share for i, share in sorted(shares.items()) if share}
 

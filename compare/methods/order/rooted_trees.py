@@ -50,27 +50,35 @@ def density(tree: Tree) -> int:
 class ElementaryWeights:
     """The elementary weights of a Runge-Kutta method, or of a partitioned one with a matrix for each colour.
 
-    The numbers are of any arithmetic that mixes with integers; what is 0 is left out of the sums.
+    The numbers are of any arithmetic that mixes with integers; what is 0 is left out of the sums.  A Rosenbrock method
+    has another matrix for a branch that is ``alone`` at its vertex.
     """
 
-    def __init__(self, *matrices: Sequence[Sequence[Any]]) -> None:
-        self._rows = [[[(j, a) for j, a in enumerate(row) if a != 0] for row in matrix] for matrix in matrices]
-        self._sums: dict[Tree, list[Any]] = {}
+    def __init__(self, *matrices: Sequence[Sequence[Any]], alone: Sequence[Sequence[Any]] | None = None) -> None:
+        self._rows = list(map(_entries, matrices))
+        self._alone = self._rows if alone is None else [_entries(alone)]
+        self._sums: dict[tuple[Tree, bool], list[Any]] = {}
 
     def stages(self, tree: Tree) -> list[Any]:
         """Phi_i(t): the product over the subtrees u at the root of sum_j a_ij Phi_j(u)."""
         values: list[Any] = [1] * len(self._rows[0])
+        single = len(tree[1]) == 1 and self._alone is not self._rows
         for subtree in tree[1]:
-            if subtree not in self._sums:
+            if (subtree, single) not in self._sums:
                 inner = self.stages(subtree)
-                rows = self._rows[subtree[0]]
-                self._sums[subtree] = [sum((a * inner[j] for j, a in row[1:]), _first(row, inner)) for row in rows]
-            values = [value * total for value, total in zip(values, self._sums[subtree], strict=True)]
+                rows = (self._alone if single else self._rows)[subtree[0]]
+                sums = [sum((a * inner[j] for j, a in row[1:]), _first(row, inner)) for row in rows]
+                self._sums[subtree, single] = sums
+            values = [value * total for value, total in zip(values, self._sums[subtree, single], strict=True)]
         return values
 
     def weight(self, b: Sequence[Any], tree: Tree) -> Any:
         """sum_i b_i Phi_i(t)."""
         return sum(weight * phi for weight, phi in zip(b, self.stages(tree), strict=True))
+
+
+def _entries(matrix: Sequence[Sequence[Any]]) -> list[list[tuple[int, Any]]]:
+    return [[(j, a) for j, a in enumerate(row) if a != 0] for row in matrix]
 
 
 def _first(row: Sequence[tuple[int, Any]], inner: Sequence[Any]) -> Any:
