@@ -15,6 +15,7 @@ from fractions import Fraction
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from compare.controlled import tolerances
 from compare.march.autonomous import autonomous
 from compare.march.march import fits, march_alone
 from compare.march.precision import precision
@@ -30,7 +31,7 @@ from compare.show.output import folder
 from compare.solvers.catalogue import SOLVERS, select
 from compare.solvers.score import score_solver
 from compare.solvers.solver import CALLS
-from compare.solvers.study import DEFAULT_LIMIT, DEFAULT_RTOL, facts, questions, tolerances
+from compare.solvers.study import DEFAULT_LIMIT, DEFAULT_RTOL, facts, questions
 from reference import __version__
 from reference.arithmetic.compiler import hy
 from reference.arithmetic.exact import positive
