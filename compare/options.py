@@ -101,16 +101,16 @@ def methods_given(known: argparse.Namespace) -> dict[str, Any]:
     return {"methods": (*(DEFAULT if named is None else () if named == NONE else named), *own)}
 
 
-def controlled_offered(parser: argparse.ArgumentParser, *, rtol: bool = True) -> None:
-    """Add the options that choose embedded pairs with a controlled step, the tolerances among them."""
+def controlled_offered(parser: argparse.ArgumentParser, *, tolerances: bool = True) -> None:
+    """Add the options that choose embedded pairs with a controlled step; and their tolerances."""
     told = "embedded pairs by name, or all, that march with a controlled step beside the methods; may repeat"
     parser.add_argument("--adaptive", **SEVERAL, help=told)
     told = "controllers of their steps: i, pi, pid (the default), h211pi, h211b, h312b, h321; may repeat"
     parser.add_argument("--controllers", **SEVERAL, help=told)
-    if rtol:
+    if tolerances:
         parser.add_argument("--rtol", **SEVERAL, help="their tolerances (default 1e-3, 1e-4, ... 1e-11); may repeat")
-    parser.add_argument("--atol", **SEVERAL, help="absolute ones, one or as many as of rtol (default as rtol)")
-    parser.add_argument("--max-attempts", metavar="N", help="at a step that a march is granted (default 200000)")
+        parser.add_argument("--atol", **SEVERAL, help="absolute ones, one or as many as of rtol (default as rtol)")
+        parser.add_argument("--max-attempts", metavar="N", help="at a step that a march is granted (default 200000)")
 
 
 def controlled_given(known: argparse.Namespace) -> dict[str, Any]:

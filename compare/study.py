@@ -36,11 +36,12 @@ if TYPE_CHECKING:
     from reference.family import End, Input, Marched
     from reference.problem import Problem
 
-__all__ = ["TRACE_N", "family_of", "inputs_shown", "problems_of", "study", "units_of"]
+__all__ = ["STEPS", "TRACE_N", "family_of", "inputs_shown", "problems_of", "study", "units_of"]
 
 TRACE_N = 256
 """Of the numbers of steps that are asked for, trajectories have that nearest to this one."""
-STEPS = "cut at the end alone; at a sample the state is by a step from the last one before (docs/work-precision.md)"
+STEPS = "of embedded pairs: cut at the end alone; at a sample the state is by a step from the last one before (docs/work-precision.md)"
+"""How the steps of pairs are controlled, for the header of a table."""
 
 
 def study(family: Family | str, form: Sequence[str] | None = None, *, traces: bool = False, **given: Any) -> Study:

@@ -105,5 +105,6 @@ def _cell(pair: Pair, course: Course, asked: Tolerated, found: AdaptiveMarch, *,
         rejected=found.rejected,
         floor=rounding.floor,
         failure=found.failure,
+        seconds=found.seconds,
         rounding=sizes.rounding,
     )

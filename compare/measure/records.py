@@ -163,6 +163,7 @@ class AdaptiveCell(OfCase):
         accepted, rejected: attempts at a step.
         floor: True where rounding may have made half of the error or more.
         failure: why the march is lost, or "".
+        seconds: of its loop over the attempts; of the loop of all that were marched together where it was not alone.
         rounding: a bound on rounding's part of the position errors.
     """
 
@@ -182,6 +183,7 @@ class AdaptiveCell(OfCase):
     rejected: int
     floor: bool
     failure: str
+    seconds: float
     rounding: float = 0.0
 
     @property

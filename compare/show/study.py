@@ -48,7 +48,7 @@ COLUMNS: Columns = {
     "growth": field_names(Growth, "rounding"),
     "period": field_names(OwnPeriod),
     "defects": field_names(Defect),
-    "adaptive": field_names(AdaptiveCell),
+    "adaptive": field_names(AdaptiveCell, "seconds"),
 }
 """What programs are given of each table's records."""
 _GROWTH_NOTE = (
