@@ -40,7 +40,10 @@ __all__ = ["STEPS", "TRACE_N", "family_of", "inputs_shown", "problems_of", "stud
 
 TRACE_N = 256
 """Of the numbers of steps that are asked for, trajectories have that nearest to this one."""
-STEPS = "of embedded pairs: cut at the end alone; at a sample the state is by a step from the last one before (docs/work-precision.md)"
+STEPS = (
+    "of embedded pairs: cut at the end alone; at a sample the state is by a step from the last one before "
+    "(docs/work-precision.md)"
+)
 """How the steps of pairs are controlled, for the header of a table."""
 
 

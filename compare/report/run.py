@@ -355,7 +355,7 @@ def _ends(cases: Iterable[tuple[Reported, Amplitude, float]], t_end: float) -> d
 def _suited(
     question: Question, methods: Sequence[Method], free: Controlled | None, solvers: Sequence[Solver]
 ) -> Iterator[tuple[str, str, str, bool]]:
-    """Methods, pairs and the solvers that are here: name, kind, controller, and whether the problem has what it needs."""
+    """Methods, pairs and the solvers that are here: name, kind, controller, and whether it fits the problem."""
     yield from ((method.name, "method", "", fits(method, question.problem)) for method in methods)
     if free is not None:
         names = dict.fromkeys(one.controller.name for one in free.asked)
