@@ -55,8 +55,9 @@ LARGEST = 1e30
 """An error of so many tolerances tells nothing."""
 CARRIED = ("time", "h", "last_h", "last_ratio", "last_error", "error_before", "accepted", "attempts", "rejected")
 """What a lane carries from attempt to attempt behind its state; errors and ratios as logarithms."""
-PARAMETERS = ("end", "shortest", "rtol", "atol", "b1", "b2", "b3", "a2", "a3", "depth")
-"""What a lane has besides the problem's parameters; the shortest step is a part of the time, and b_i are over k."""
+PARAMETERS = ("end", "shortest", "most", "rtol", "atol", "b1", "b2", "b3", "a2", "a3", "depth")
+"""What a lane has besides the problem's parameters: the shortest step is a part of the time, the most attempts are a
+number, and b_i are over k."""
 
 
 @dataclass(frozen=True)
@@ -137,8 +138,8 @@ def march_adaptive(
     results: dict[int, AdaptiveMarch] = {}
     for (_, iterations), members in groups.items():
         members.sort(key=lambda i: lanes[i].rtol)
-        group = _Group(pair, [lanes[i] for i in members], fmt, iterations)
-        results.update(zip(members, group.run(most), strict=True))
+        group = _Group(pair, [lanes[i] for i in members], fmt, iterations, most)
+        results.update(zip(members, group.run(), strict=True))
     return [results[i] for i in range(len(lanes))]
 
 
@@ -262,6 +263,7 @@ def _goes(system: BoundSystem, carried: dict[str, Any], given: dict[str, Any]) -
     return hy.logical_and(
         [
             hy.lt(carried["time"], given["end"]),
+            hy.lt(carried["attempts"], given["most"]),
             hy.lt(carried["time"] * given["shortest"] + system.tiny, carried["h"]),
         ]
     )
@@ -317,8 +319,8 @@ def _size(value: Any) -> Any:
 class _Group:
     """Lanes with one compiled attempt, marched in lockstep until the longest has ended."""
 
-    def __init__(self, pair: Pair, lanes: Sequence[AdaptiveLane], fmt: Precision, iterations: int) -> None:
-        self.pair, self.lanes, self.fmt, self.iterations = pair, lanes, fmt, iterations
+    def __init__(self, pair: Pair, lanes: Sequence[AdaptiveLane], fmt: Precision, iterations: int, most: int) -> None:
+        self.pair, self.lanes, self.fmt, self.iterations, self.most = pair, lanes, fmt, iterations, most
         self.problem = lanes[0].lane.problem
         self.rows = _Rows(len(self.problem.state_names))
         self.attempt = _compiled(pair, CommonEquation.of(self.problem), fmt, iterations)
@@ -326,15 +328,15 @@ class _Group:
         self.passed: list[_Passed] = []
         self.last = np.zeros((self.rows.count, len(lanes)))
 
-    def run(self, most: int) -> list[AdaptiveMarch]:
+    def run(self) -> list[AdaptiveMarch]:
         """March to the end of every lane, and note the seconds that the loop took."""
         with np.errstate(all="ignore"):
             rows, parameters = self._start()
-            seconds = self._loop(rows, parameters, most)
+            seconds = self._loop(rows, parameters)
             states = self._sampled()
-        return [self._result(i, states[i], most, seconds) for i in range(len(self.lanes))]
+        return [self._result(i, states[i], seconds) for i in range(len(self.lanes))]
 
-    def _loop(self, rows: np.ndarray, parameters: np.ndarray, most: int) -> float:
+    def _loop(self, rows: np.ndarray, parameters: np.ndarray) -> float:
         """Attempt after attempt; lanes that have ended leave when a batch of them has.  The seconds of the calls."""
         places, seconds, calls = np.arange(len(self.lanes)), 0.0, FEW_CALLS
         while len(places):
@@ -352,7 +354,7 @@ class _Group:
             self.last[:, places] = table[-1, :, : len(places)].astype(np.float64)
             attempts = table[-1, self.rows["attempts"], : len(places)].astype(np.float64)
             moved = attempts > table[-2, self.rows["attempts"], : len(places)].astype(np.float64)
-            going = np.flatnonzero(moved & (attempts < most))
+            going = np.flatnonzero(moved)
             rows, parameters, places = table[-1][:, going], parameters[:, going], places[going]
             calls = min(2 * calls, MANY_CALLS)
         return seconds
@@ -379,6 +381,7 @@ class _Group:
         numbers = (
             one.lane.n * one.lane.h,
             rules.SMALLEST_STEP * self.fmt.exact_epsilon,
+            Fraction(self.most),
             *(one.rtol, one.atol, *beta, *one.controller.alpha, Fraction(one.controller.depth)),
         )
         return dict(zip(PARAMETERS, numbers, strict=True))
@@ -451,7 +454,7 @@ class _Group:
             states[place][sample] = state
         return states
 
-    def _result(self, i: int, states: np.ndarray, most: int, seconds: float) -> AdaptiveMarch:
+    def _result(self, i: int, states: np.ndarray, seconds: float) -> AdaptiveMarch:
         one, last = self.lanes[i], dict(zip(CARRIED, self.last[self.rows.dimension :, i], strict=True))
         accepted, attempts = int(last["accepted"]), int(last["attempts"])
         ended = last["time"] >= float(self.fmt.number(one.lane.n * one.lane.h))
@@ -459,16 +462,16 @@ class _Group:
         starts = accepted + (not ended)
         evaluations = attempts * work.evaluations + (starts * work.at_state if work.at_state else 1) + 1
         jacobians = attempts * work.jacobians + starts * work.jacobians_at_state
-        failure = "" if ended else self._failure(last, most)
+        failure = "" if ended else self._failure(last)
         return AdaptiveMarch(states, accepted, attempts - accepted, evaluations, jacobians, failure, seconds)
 
-    def _failure(self, last: dict[str, float], most: int) -> str:
+    def _failure(self, last: dict[str, float]) -> str:
         """Why a march has not come to its end."""
         where = f"at t = {last['time']:.6g}"
         if not last["attempts"]:
             return "lost at the start: the right-hand side is no number there"
-        if last["attempts"] >= most:
-            return f"lost {where}: more than {most} attempts at a step"
+        if last["attempts"] >= self.most:
+            return f"lost {where}: {self.most} attempts at a step have not been enough"
         return f"lost {where}: a step of {last['h']:.1e} is too short for the time to go on"
 
 
