@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from compare.claims.events import assert_events, check_events
     from compare.claims.gradients import assert_gradients, check_gradients
     from compare.claims.process import Process
+    from compare.controlled import error_vs_rtol
     from compare.files.asserting import assert_score
     from compare.files.score import score
     from compare.methods.own.step_function import method
@@ -43,6 +44,7 @@ __all__ = [
     "check_gradients",
     "energy_drift",
     "error_vs_n",
+    "error_vs_rtol",
     "method",
     "score",
 ]
@@ -65,6 +67,7 @@ _HOMES = {
     "check_gradients": "compare.claims.gradients",
     "energy_drift": "compare.scored",
     "error_vs_n": "compare.scored",
+    "error_vs_rtol": "compare.controlled",
     "method": "compare.methods.own.step_function",
     "score": "compare.files.score",
 }

@@ -22,6 +22,8 @@ if TYPE_CHECKING:
 __all__ = [
     "NONE",
     "FamilyOptions",
+    "controlled_given",
+    "controlled_offered",
     "families_of",
     "inputs_given",
     "inputs_offered",
@@ -99,6 +101,39 @@ def methods_given(known: argparse.Namespace) -> dict[str, Any]:
     return {"methods": (*(DEFAULT if named is None else () if named == NONE else named), *own)}
 
 
+def controlled_offered(parser: argparse.ArgumentParser, *, tolerances: bool = True) -> None:
+    """Add the options that choose embedded pairs with a controlled step; and their tolerances."""
+    told = "embedded pairs by name, or all, that march with a controlled step beside the methods; may repeat"
+    parser.add_argument("--adaptive", **SEVERAL, help=told)
+    told = "controllers of their steps: i, pi, pid (the default), h211pi, h211b, h312b, h321; may repeat"
+    parser.add_argument("--controllers", **SEVERAL, help=told)
+    if tolerances:
+        parser.add_argument("--rtol", **SEVERAL, help="their tolerances (default 1e-3, 1e-4, ... 1e-11); may repeat")
+        parser.add_argument("--atol", **SEVERAL, help="absolute ones, one or as many as of rtol (default as rtol)")
+        parser.add_argument("--max-attempts", metavar="N", help="at a step that a march is granted (default 200000)")
+
+
+def controlled_given(known: argparse.Namespace) -> dict[str, Any]:
+    """What was asked of pairs with a controlled step, as arguments of ``compare.controlled.controlled``.
+
+    Raises:
+        ValueError: one cannot be read, or no pair is named.
+    """
+    readers: dict[str, Callable[[str, str], Any]] = {"adaptive": text, "controllers": text, "rtol": number}
+    readers["atol"] = number
+    given: dict[str, Any] = {
+        name: several(name, getattr(known, name), read)
+        for name, read in readers.items()
+        if getattr(known, name) is not None
+    }
+    if known.max_attempts is not None:
+        given["max_attempts"] = whole(known.max_attempts, "max-attempts", "number of attempts")
+    if given and "adaptive" not in given:
+        option = next(iter(given)).replace("_", "-")
+        raise ValueError(f"--{option} is of pairs with a controlled step; --adaptive says which.")
+    return given
+
+
 def _order(piece: str) -> int:
     if not piece.isdecimal() or not int(piece):
         raise ValueError(f"--claims '{short(piece)}' is no order; a positive integer is accepted.")
@@ -164,6 +199,7 @@ class FamilyOptions:
         methods_offered(parser, "twelve")
         powers = f"{LEAST_N}, {2 * LEAST_N}, ... {comparison.largest}"
         parser.add_argument("--n", **SEVERAL, help=f"numbers of steps (default {powers}); may repeat")
+        controlled_offered(parser)
         scores = f"{', '.join(SCORES)} (default {', '.join(DEFAULT_SCORES)})"
         parser.add_argument("--scores", **SEVERAL, help=f"what is shown: {scores}; may repeat")
         flags = {
@@ -192,7 +228,7 @@ class FamilyOptions:
         for name, read in readers.items():
             if getattr(known, name) is not None:
                 given[name] = several(name, getattr(known, name), read)
-        given |= methods_given(known)
+        given |= methods_given(known) | controlled_given(known)
         if known.precision is not None:
             given["precision"] = known.precision
         if known.compensated:

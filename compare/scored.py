@@ -12,6 +12,7 @@ import numpy as np
 from compare.march.lanewise import obstacle
 from compare.march.march import fits, lacking
 from compare.march.precision import precision as find_precision
+from compare.measure.adaptive import score_adaptive
 from compare.measure.cases import case_of
 from compare.measure.growth import GROWTH_SAMPLES
 from compare.measure.order_fit import fit_order
@@ -32,10 +33,21 @@ if TYPE_CHECKING:
     from fractions import Fraction
 
     from compare.march.precision import Precision
-    from compare.measure.records import Case, Cell, Drift, FittedOrder
+    from compare.measure.adaptive import Controlled
+    from compare.measure.records import AdaptiveCell, Case, Cell, Drift, FittedOrder
     from compare.methods.kinds.one_step import Method
+    from compare.methods.kinds.protocol import Pair
 
-__all__ = ["DEFAULT_N", "Scored", "energy_drift", "error_vs_n", "manner", "named", "score_all", "some"]
+__all__ = [
+    "DEFAULT_N",
+    "Scored",
+    "energy_drift",
+    "error_vs_n",
+    "manner",
+    "named",
+    "score_all",
+    "some",
+]
 
 DEFAULT_N = tuple(2**k for k in range(7, 21))
 MAX_N = 10**10
@@ -55,6 +67,7 @@ class Scored:
         found: records by the name of their table.
         left_out: methods that do not fit a problem, by the problem's label.
         own: how each of the user's own was marched, by its name.
+        adaptive: the errors of pairs with a controlled step; None where none was asked for.
     """
 
     methods: tuple[Method, ...]
@@ -66,6 +79,7 @@ class Scored:
     found: Found
     left_out: dict[str, tuple[str, ...]]
     own: dict[str, str]
+    adaptive: tuple[AdaptiveCell, ...] | None = None
 
     @property
     def cells(self) -> tuple[Cell, ...]:
@@ -118,6 +132,7 @@ def score_all(
     *,
     compensated: bool | Literal["beside"] = False,
     scores: Sequence[str] = DEFAULT_SCORES,
+    controlled: Controlled | None = None,
 ) -> Scored:
     """March methods over 0 <= t <= t_end of each problem in each number of steps, and score them.
 
@@ -125,7 +140,8 @@ def score_all(
 
     Args:
         problems: problems of any families.
-        methods: names or aliases, or "all" for every one, or methods themselves; ``compare.methods.DEFAULT`` if None.
+        methods: names or aliases, or "all" for every one, or methods themselves; ``compare.methods.DEFAULT`` if None,
+            and () for none where any march with a controlled step.
         n: numbers of steps, each a positive integer.
         t_end: end of the march, in s or the problem's own unit; or a list of one for each problem.
         precision: a format of ``compare.march.precision``.
@@ -134,6 +150,8 @@ def score_all(
         compensated: whether every step's additions to the state are compensated for rounding; "beside" marches each
             method both ways.
         scores: what is scored, of ``compare.measure.wanted.SCORES``.
+        controlled: which pairs march with a controlled step besides, of ``controlled``; their states are compared at as
+            many times.
 
     Raises:
         ValueError: an argument is outside its range, a name unknown, or no method fits any problem.
@@ -146,7 +164,7 @@ def score_all(
             raise TypeError(f"problems holds a {type(problem).__name__}; problems such as Pendulum(1.0) are accepted.")
         consistent(problem)
     fmt, wanted = find_precision(precision), chosen_scores(some(scores, "scores"))
-    chosen = named(methods)
+    chosen = () if methods == () and controlled is not None else named(methods)
     if fmt.name != "float64" and (own := [method.name for method in chosen if method.family == "own"]):
         raise ValueError(f"{own[0]} is a step function, with constants in doubles; precision float64 is accepted.")
     if compensated:
@@ -154,24 +172,26 @@ def score_all(
         chosen = tuple(method for both in twins for method in both)
     ends = _ends(t_end, len(problems))
     samples = GROWTH_SAMPLES if "growth" in wanted else SAMPLES
-    counts = _step_counts(n)
-    courses = [
-        Course(problem, k, end, fmt, samples) for problem, end in zip(problems, ends, strict=True) for k in counts
-    ]
+    pairs = list(zip(problems, ends, strict=True))
+    courses = [Course(problem, k, end, fmt, samples) for problem, end in pairs for k in _step_counts(n) if chosen]
+    free = [] if controlled is None else [Course(problem, SAMPLES, end, fmt) for problem, end in pairs]
     _hold_own(chosen, courses, fmt)
-    for course in courses:
+    for course in (*courses, *free):
         course.truth, course.neighbour.truth, course.conditioning  # noqa: B018 - computed once, before processes share it
     fitting = {method.name: [course for course in courses if fits(method, course.problem)] for method in chosen}
-    if not any(fitting.values()):
-        alone = f": it {lacking(chosen[0], courses[0].problem)}" if len(chosen) == 1 else ""
-        raise ValueError(
-            f"none of {', '.join(fitting)} fits {problems[0]!r}{alone}; others, such as rk4, are accepted."
-        )
+    _hold_some(chosen, courses)
     results = _in_order_of_work(chosen, fitting, (fmt, wanted), executor, progress)
+    adaptive = None if controlled is None else _adaptive(controlled, free, fmt, executor, progress)
     tables = ("error_vs_n", "energy_drift", *(name for name in wanted if name in EXTRAS))
     found = {table: [record for method in chosen for record in results[method.name][table]] for table in tables}
     left_out = {
-        case_of(problem).label: tuple(method.name for method in chosen if not fits(method, problem))
+        case_of(problem).label: tuple(
+            dict.fromkeys(
+                method.name
+                for method in (*chosen, *(() if controlled is None else controlled.pairs))
+                if not fits(method, problem)
+            )
+        )
         for problem in problems
     }
     marched = {
@@ -179,7 +199,20 @@ def score_all(
         for one in chosen
         if one.opaque and fitting[one.name]
     }
-    return Scored(chosen, tuple(problems), ends, fmt, wanted, samples, found, left_out, marched)
+    return Scored(chosen, tuple(problems), ends, fmt, wanted, samples, found, left_out, marched, adaptive)
+
+
+def _hold_some(methods: Sequence[Method], courses: Sequence[Course]) -> None:
+    """Refuse methods of which none fits any course.
+
+    Raises:
+        ValueError: none does.
+    """
+    if methods and not any(fits(method, course.problem) for method in methods for course in courses):
+        problem = courses[0].problem
+        alone = f": it {lacking(methods[0], problem)}" if len(methods) == 1 else ""
+        names = ", ".join(method.name for method in methods)
+        raise ValueError(f"none of {names} fits {problem.original!r}{alone}; others, such as rk4, are accepted.")
 
 
 def manner(method: Method, problems: Sequence[Problem], fmt: Precision) -> str:
@@ -264,6 +297,35 @@ def _step_counts(n: Sequence[int]) -> list[int]:
         if isinstance(count, bool) or not isinstance(count, (int, np.integer)) or not 0 < count <= MAX_N:
             raise ValueError(f"n is {count!r}; a positive integer up to {MAX_N} is accepted.")
     return sorted({int(count) for count in n})
+
+
+def _adaptive(
+    controlled: Controlled,
+    courses: Sequence[Course],
+    fmt: Precision,
+    executor: Executor | None,
+    progress: Callable[[str], None] | None,
+) -> tuple[AdaptiveCell, ...]:
+    """The errors of pairs with a controlled step: pair by pair, those of low order, whose steps are many, begun first.
+
+    Raises:
+        ValueError: no pair fits any problem.
+    """
+    _hold_some(controlled.pairs, courses)
+    by_work = sorted(controlled.pairs, key=lambda pair: (pair.family != "implicit", pair.order))
+    fitting = [(pair, [course for course in courses if fits(pair, course.problem)]) for pair in by_work]
+    function = partial(_score_adaptive, controlled=controlled, fmt=fmt)
+    tasks = [task for task in fitting if task[1]]
+    found: dict[str, list[AdaptiveCell]] = {}
+    for (pair, _), cells in results(executor, function, tasks, unfinished="its marches were scored"):
+        found[pair.name] = cells
+        if progress is not None:
+            progress(pair.name)
+    return tuple(cell for pair in controlled.pairs for cell in found.get(pair.name, ()))
+
+
+def _score_adaptive(task: tuple[Pair, list[Course]], controlled: Controlled, fmt: Precision) -> list[AdaptiveCell]:
+    return score_adaptive(*task, controlled.asked, fmt, controlled.most)
 
 
 def _score(task: tuple[Method, list[Course]], fmt: Precision, wanted: Sequence[str]) -> Found:

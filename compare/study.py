@@ -11,11 +11,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from compare.controlled import OPTIONS, controlled
 from compare.march.block_size import INLINE_SINE
 from compare.march.march import fits, march
 from compare.measure.records import Study, Trace
 from compare.measure.truth import Course
-from compare.measure.wanted import EXTRAS
+from compare.measure.wanted import DEFAULT_SCORES, EXTRAS
 from compare.scored import score_all, some
 from reference import __version__
 from reference.arithmetic.compiler import hy
@@ -30,14 +31,20 @@ if TYPE_CHECKING:
     from fractions import Fraction
 
     from compare.march.precision import Precision
+    from compare.measure.adaptive import Controlled
     from compare.scored import Scored
     from reference.family import End, Input, Marched
     from reference.problem import Problem
 
-__all__ = ["TRACE_N", "family_of", "inputs_shown", "problems_of", "study", "units_of"]
+__all__ = ["STEPS", "TRACE_N", "family_of", "inputs_shown", "problems_of", "study", "units_of"]
 
 TRACE_N = 256
 """Of the numbers of steps that are asked for, trajectories have that nearest to this one."""
+STEPS = (
+    "of embedded pairs: cut at the end alone; at a sample the state is by a step from the last one before "
+    "(docs/work-precision.md)"
+)
+"""How the steps of pairs are controlled, for the header of a table."""
 
 
 def study(family: Family | str, form: Sequence[str] | None = None, *, traces: bool = False, **given: Any) -> Study:
@@ -47,8 +54,9 @@ def study(family: Family | str, form: Sequence[str] | None = None, *, traces: bo
         family: the family, its name, or the name of its command.
         form: which forms of its equations are marched, of those that its ``comparison`` has; all if None.
         traces: whether to keep trajectories for plots, in that of the numbers of steps which is nearest to TRACE_N.
-        given: inputs of the family by name, of which the ``varied`` one is a sequence; the ends of marches by name; and
-            options of ``compare.scored.score_all``.
+        given: inputs of the family by name, of which the ``varied`` one is a sequence; the ends of marches by name;
+            arguments of ``compare.controlled.controlled``, where pairs march with a controlled step too; and options of
+            ``compare.scored.score_all``.
 
     Raises:
         ValueError: an argument is outside its range, or a name unknown.
@@ -59,6 +67,9 @@ def study(family: Family | str, form: Sequence[str] | None = None, *, traces: bo
     forms = _forms(one, form)
     inputs = {name: given.pop(name) for name in (comparison.varied, *comparison.inputs) if name in given}
     ends = {end.name: given.pop(end.name) for end in _ends(forms) if end.name in given}
+    free = _controlled({name: given.pop(name) for name in OPTIONS if name in given})
+    if free is not None:
+        given = {"scores": (*DEFAULT_SCORES, "work"), **given}
     bases = problems_of(one, inputs)
     marched: list[Problem] = []
     lengths: list[Fraction] = []
@@ -72,28 +83,36 @@ def study(family: Family | str, form: Sequence[str] | None = None, *, traces: bo
         marched += problems
         lengths += own
     counts = [1 << k for k in range(LEAST_N.bit_length() - 1, comparison.largest.bit_length())]
-    scored = score_all(marched, **{"n": counts, **given, "t_end": lengths})
+    scored = score_all(marched, **{"n": counts, **given, "t_end": lengths, "controlled": free})
     kept, exact_orbits = _traces(scored) if traces else ((), ())
     return Study(
         problem=comparison.command,
-        parameters={**header, "samples": scored.samples},
+        parameters={**header, "samples": scored.samples, **({} if free is None else free.parameters)},
         reference={
             "version": __version__,
             "routes": ["enclosure", *ROUTES],
             "definition": _definition(marched),
             "truth": "the state at exactly t = n h, proven correctly rounded; h is t_end/N rounded to the format",
         },
-        engine={**_engine(scored.fmt), **_notes(scored)},
+        engine={**_engine(scored.fmt), **({} if free is None else {"controlled steps": STEPS}), **_notes(scored)},
         cases=scored.cases,
         error_vs_n=scored.cells,
         order=scored.orders,
         energy_drift=scored.drifts,
         scores=scored.scores,
         units=units,
+        adaptive=scored.adaptive,
         **{score: scored.asked(score) for score in EXTRAS},
         traces=kept,
         exact=exact_orbits,
     )
+
+
+def _controlled(asked: dict[str, Any]) -> Controlled | None:
+    """What is asked of pairs with a controlled step, if any are."""
+    if asked and "adaptive" not in asked:
+        raise ValueError(f"{next(iter(asked))} is of pairs with a controlled step; adaptive says which.")
+    return controlled(**asked) if asked else None
 
 
 def family_of(command: str) -> Family:
@@ -216,6 +235,8 @@ def _traces(scored: Scored) -> tuple[tuple[Trace, ...], tuple[Trace, ...]]:
     """Every method's trajectory on every problem, and the exact one at the same times."""
     pairs = zip(scored.problems, scored.t_ends, strict=True)
     asked = {cell.n for cell in scored.cells}
+    if not asked:
+        return (), ()
     n = min(asked, key=lambda count: (abs(math.log(count / TRACE_N)), count))
     courses = [Course(problem, n, end, scored.fmt, TRACE_N) for problem, end in pairs]
     kept = []

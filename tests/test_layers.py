@@ -128,6 +128,7 @@ LAYERS = (
     ("compare.march",),
     ("compare.measure",),
     ("compare.show", "compare.scored"),
+    ("compare.controlled",),
     ("compare.options", "compare.study", "compare.baseline"),
     ("compare.claims", "compare.files", "compare.solvers", "compare.sources"),
     ("compare.report",),

@@ -74,7 +74,12 @@ class _WithTime(Problem):
         return repr(self.inner)
 
     def __getattr__(self, name: str) -> Any:
-        """An invariant, or the scale of one, of the state without the time."""
+        """An invariant, or the scale of one, of the state without the time.
+
+        What is being unpickled is asked for names of Python's own before it has an inner problem.
+        """
+        if name == "inner" or name.startswith("__"):
+            raise AttributeError(f"{type(self).__name__} has no attribute {name!r}")
         of_the_state = {one.value for one in self.inner.invariants} | {one.scale for one in self.inner.invariants}
         if name not in of_the_state:
             raise AttributeError(f"{type(self).__name__} has no attribute {name!r}")

@@ -32,6 +32,8 @@ if TYPE_CHECKING:
     from reference.problem import Problem
 
 __all__ = [
+    "BRIEF",
+    "CLOCKED_RUNS",
     "converged",
     "fits",
     "iterations_for",

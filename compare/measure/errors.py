@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from reference.problem import Problem
 
 __all__ = [
+    "Sizes",
     "drifts",
     "score_courses",
     "score_errors",
@@ -61,7 +62,7 @@ def score_courses(
         before: Course | None = None
         for course, result, signed, rounding in zip(courses, marches, errors, roundings, strict=True):
             previous = cells[-1] if before is not None and before.problem == course.problem else None
-            cells.append(_cell(method, course, result, _Sizes(course, signed, rounding, relative=relative), previous))
+            cells.append(_cell(method, course, result, Sizes(course, signed, rounding, relative=relative), previous))
             before = course
     return cells, marches, roundings
 
@@ -78,7 +79,7 @@ def drifts(
         ]
 
 
-def _cell(method: Method, course: Course, result: March, sizes: _Sizes, previous: Cell | None) -> Cell:
+def _cell(method: Method, course: Course, result: March, sizes: Sizes, previous: Cell | None) -> Cell:
     place, velocity = sizes.place, sizes.velocity
     slope, slope_rounding = None, 0.0
     if previous is not None and 0 < place.largest < math.inf and 0 < previous.max_error < math.inf:
@@ -99,7 +100,7 @@ def _cell(method: Method, course: Course, result: March, sizes: _Sizes, previous
         max_velocity_error=velocity.largest,
         end_velocity_error=velocity.last,
         rms_velocity_error=velocity.mean_square,
-        digits=_digits(sizes.worst, course.fmt.bits),
+        digits=sizes.digits,
         jacobians=result.jacobians,
         rounding=sizes.rounding,
         velocity_rounding=sizes.velocity_rounding,
@@ -107,7 +108,7 @@ def _cell(method: Method, course: Course, result: March, sizes: _Sizes, previous
     )
 
 
-class _Sizes:
+class Sizes:
     """The errors [samples, state] of a course in sizes, of its place and of its velocity, and rounding's part."""
 
     def __init__(self, course: Course, signed: np.ndarray, rounding: Rounding, *, relative: bool) -> None:
@@ -119,7 +120,7 @@ class _Sizes:
         self.rounding = rounding.position if relative else float(np.max(rounded[places]))
         self.velocity_rounding = float(np.max(rounded[rates], initial=0.0))
         self.place, self.velocity = _Norms(scaled[:, places]), _Norms(scaled[:, rates])
-        self.worst = _Norms((errors / course.conditioning.sizes)[:, places]).largest
+        self.digits = _digits(_Norms((errors / course.conditioning.sizes)[:, places]).largest, course.fmt.bits)
 
 
 class _Norms:

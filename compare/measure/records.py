@@ -15,6 +15,7 @@ if TYPE_CHECKING:
 
 __all__ = [
     "FLOOR_FACTOR",
+    "AdaptiveCell",
     "Case",
     "Cell",
     "Defect",
@@ -138,6 +139,57 @@ class Cell(OfCase):
     rounding: float = 0.0
     velocity_rounding: float = 0.0
     order_rounding: float = 0.0
+
+
+@dataclass(frozen=True)
+class AdaptiveCell(OfCase):
+    """The error of one embedded pair with one controller of its step at one tolerance.
+
+    Errors are those of a Cell, at 128 times evenly over the march.
+
+    Attributes:
+        method: the pair's name.
+        controller: that of its step size.
+        rtol, atol: the tolerances that were asked for: atol + rtol |y| of each component in a step.
+        case: the problem.
+        max_error: largest position error over the samples; NaN where the march is lost.
+        end_error: its error at the last sample.
+        rms_error: root mean square over the samples of the position error.
+        max_velocity_error: largest error of the velocity over the samples.
+        digits: correct digits, as of a Cell.
+        evaluations: evaluations of the right-hand side (or force), those of rejected attempts and of the choice of the
+            first step among them.
+        jacobians: evaluations of the Jacobian.
+        accepted, rejected: attempts at a step.
+        floor: True where rounding may have made half of the error or more.
+        failure: why the march is lost, or "".
+        seconds: of its loop over the attempts; of the loop of all that were marched together where it was not alone.
+        rounding: a bound on rounding's part of the position errors.
+    """
+
+    method: str
+    controller: str
+    rtol: float
+    atol: float
+    case: Case
+    max_error: float
+    end_error: float
+    rms_error: float
+    max_velocity_error: float
+    digits: float
+    evaluations: int
+    jacobians: int
+    accepted: int
+    rejected: int
+    floor: bool
+    failure: str
+    seconds: float
+    rounding: float = 0.0
+
+    @property
+    def name(self) -> str:
+        """The pair and its controller in a few words."""
+        return f"{self.method}, {self.controller}"
 
 
 @dataclass(frozen=True)
@@ -321,7 +373,7 @@ class Study:
         cases: the problems.
         scores: what is to be shown, of ``compare.measure.wanted.SCORES``.
         units: of the parameters that have some.
-        phase, growth, period, defects: None where they were not asked for.
+        phase, growth, period, defects, adaptive: None where they were not asked for.
     """
 
     problem: str
@@ -337,6 +389,7 @@ class Study:
     growth: tuple[Growth, ...] | None = None
     period: tuple[OwnPeriod, ...] | None = None
     defects: tuple[Defect, ...] | None = None
+    adaptive: tuple[AdaptiveCell, ...] | None = None
     units: dict[str, str] = field(default_factory=dict, repr=False)
     traces: tuple[Trace, ...] = field(default=(), repr=False)
     exact: tuple[Trace, ...] = field(default=(), repr=False)

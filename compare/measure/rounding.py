@@ -31,7 +31,7 @@ if TYPE_CHECKING:
     from compare.methods.kinds.protocol import Method
     from reference.problem import Problem
 
-__all__ = ["LOST", "Rounding", "roundings_of"]
+__all__ = ["LOST", "Rounding", "rounding_of_steps", "roundings_of"]
 
 STRIDE = 4
 """Where roundings are carried further, the bound grows by so much, as often as it takes."""
@@ -111,8 +111,26 @@ def _steps(method: Method, course: Course) -> float:
     every step.  Compensated sums lose nothing from step to step.
     """
     operations = max(method.evaluations(0)[0], 1) + 1
-    walk = 0.0 if isinstance(method, Compensated) else math.sqrt(course.n * operations) / 3
-    return walk + 2 * operations
+    return _added(0 if isinstance(method, Compensated) else course.n, operations)
+
+
+def _added(steps: int, operations: int) -> float:
+    """What the roundings of so many steps, and the constant ones of a step, add up to."""
+    return math.sqrt(steps * operations) / 3 + 2 * operations
+
+
+def rounding_of_steps(course: Course, steps: int, operations: int, errors: np.ndarray) -> Rounding:
+    """What rounding made of a march in steps of no one size, of so many operations each; no neighbour is marched."""
+    added = _added(steps, operations)
+    row = _bounds(course, added, errors)
+    size = float(np.max(course.position_error(errors)))
+    return Rounding(
+        position=float(row[0]),
+        state=row[1 + len(course.scales) :],
+        drifts=row[1 : 1 + len(course.scales)],
+        floor=bool(size < LOST and size <= FLOOR_FACTOR * row[0]),
+        steps=added,
+    )
 
 
 def _bounds(course: Course, steps: float, errors: np.ndarray) -> np.ndarray:

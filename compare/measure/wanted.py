@@ -14,6 +14,7 @@ __all__ = ["DEFAULT_SCORES", "EXTRAS", "SCORES", "chosen_scores"]
 SCORES = {
     "error": "error against N, with the observed order",
     "norms": "largest, last and root-mean-square error of place and velocity, correct digits, work",
+    "work": "evaluations for an error, of fixed and of controlled steps; what those with a controlled step gave",
     "drift": "drift of the energy or another invariant",
     "phase": "the error as one of phase and one of amplitude",
     "growth": "how errors and drift grow with time: bounded, as a root of t, as t, ...",

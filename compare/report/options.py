@@ -6,7 +6,7 @@ import os
 from typing import TYPE_CHECKING, Any
 
 from compare.baseline import add_baseline
-from compare.options import NONE, methods_given, methods_offered
+from compare.options import NONE, controlled_offered, methods_given, methods_offered
 from compare.report.regression import ERROR_FACTOR
 from compare.show.render import FORMATS
 from compare.solvers.regression import ERROR_FACTOR as FACTOR_OF_SOLVERS
@@ -32,6 +32,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         help="how far from rest they start, or curves of descents by name (default: each family's own)",
     )
     methods_offered(parser, "a dozen")
+    controlled_offered(parser, tolerances=False)
     parser.add_argument("--solvers", **several, help="solvers or packages by name (default all), or none; may repeat")
     parser.add_argument("--n", **several, help="numbers of steps (default 128, 256, ... 131072); may repeat")
     parser.add_argument("--rtol", **several, help="tolerances (default 1e-3, 1e-4, ... 1e-13); may repeat")
@@ -65,12 +66,16 @@ def options(known: argparse.Namespace) -> dict[str, Any]:
         for name, read in (
             ("problems", values.text),
             ("amplitudes", _amplitude),
+            ("adaptive", values.text),
+            ("controllers", values.text),
             ("solvers", values.text),
             ("n", values.whole),
             ("rtol", values.number),
         )
         if getattr(known, name) is not None
     }
+    if "controllers" in given and "adaptive" not in given:
+        raise ValueError("--controllers is of pairs with a controlled step; --adaptive says which.")
     given |= {"solvers": ()} if given.get("solvers") == NONE else {}
     given |= methods_given(known)
     if known.t_end is not None:

@@ -15,8 +15,8 @@ class WorkPoint:
     Attributes:
         family: of problems.
         amplitude: the number, in the family's units, or the name that tells the problem from others of its family.
-        name: of the method or solver.
-        kind: "method", which takes a number of steps, or "solver", which takes a tolerance.
+        name: of the method or solver; of a pair with a controlled step with that of the controller.
+        kind: "method", which takes a number of steps, or "adaptive" or "solver", which take a tolerance.
         setting: the number of steps, or the tolerance.
         max_error: the largest position error over the samples, in the family's units of errors; NaN where there is
             none.

@@ -2,7 +2,8 @@
 
 Finished groups of an unfinished report, kept beside its folder, so that a long report can go on.
 
-One group of a report: a method or a solver on one problem, over its numbers of steps or tolerances.
+One group of a report: a method, a pair with a controlled step or a solver on one problem, over its numbers of steps or
+tolerances.
 """
 
 from __future__ import annotations
@@ -15,10 +16,14 @@ from fractions import Fraction
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from compare.controlled import controlled, tolerances
+from compare.march import controllers as step_controllers
+from compare.march.adaptive import MOST_ATTEMPTS, is_pair, refusal
 from compare.march.autonomous import autonomous
-from compare.march.march import fits, march_alone
+from compare.march.march import BRIEF, CLOCKED_RUNS, fits, march_alone
 from compare.march.precision import precision
 from compare.march.trace import TraceError
+from compare.measure.adaptive import Tolerated, score_adaptive
 from compare.measure.errors import score_errors
 from compare.measure.truth import SAMPLES, Course
 from compare.methods import find
@@ -30,7 +35,8 @@ from compare.show.output import folder
 from compare.solvers.catalogue import SOLVERS, select
 from compare.solvers.score import score_solver
 from compare.solvers.solver import CALLS
-from compare.solvers.study import DEFAULT_LIMIT, DEFAULT_RTOL, facts, questions, tolerances
+from compare.solvers.study import DEFAULT_LIMIT, DEFAULT_RTOL, facts, questions
+from compare.study import STEPS
 from reference import __version__
 from reference.arithmetic.compiler import hy
 from reference.arithmetic.exact import positive
@@ -43,7 +49,8 @@ if TYPE_CHECKING:
     import os
     from collections.abc import Callable, Iterable, Iterator, Sequence
 
-    from compare.measure.records import Cell
+    from compare.measure.adaptive import Controlled
+    from compare.measure.records import AdaptiveCell, Cell
     from compare.methods.kinds.one_step import Method
     from compare.report.problems import Amplitude
     from compare.solvers.records import SolverCell
@@ -114,11 +121,12 @@ class Task:
 
     Attributes:
         family, amplitude: the problem.
-        name, kind: a method and "method", or a solver and "solver".
+        name, kind: a method and "method", a pair and "adaptive", or a solver and "solver".
         settings: numbers of steps, or tolerances.
         t_end: the last time, s.
         limit: evaluations of the right-hand side that a solver is granted for one answer.
         own: where a method of the user's own stands; None for any other.
+        controller: of the steps of a pair, or "".
     """
 
     family: str
@@ -129,6 +137,12 @@ class Task:
     t_end: float
     limit: int
     own: Own | None = None
+    controller: str = ""
+
+    @property
+    def label(self) -> str:
+        """What tables call it: a pair with its controller."""
+        return f"{self.name}, {self.controller}" if self.controller else self.name
 
     @property
     def key(self) -> str:
@@ -148,7 +162,7 @@ class Task:
 
 def work(task: Task) -> tuple[WorkPoint, ...]:
     """Do what the task asks for; whatever goes wrong with a method or a solver is part of the answer."""
-    return _marched(task) if task.kind == "method" else _solved(task)
+    return _WORK[task.kind](task)
 
 
 def _marched(task: Task) -> tuple[WorkPoint, ...]:
@@ -162,6 +176,24 @@ def _marched(task: Task) -> tuple[WorkPoint, ...]:
     return tuple(_point(task, cell.n, cell, seconds) for cell, (_, seconds) in zip(cells, alone, strict=True))
 
 
+def _controlled(task: Task) -> tuple[WorkPoint, ...]:
+    """Each tolerance by itself, for its seconds; of a short march the shortest of a few counts."""
+    fmt, (controller,), pair = precision("float64"), step_controllers.controllers([task.controller]), task.method
+    if not is_pair(pair):
+        raise ValueError(f"{pair.name} {refusal(pair, task.problem)}.")
+    course = Course(task.problem, SAMPLES, Fraction(task.t_end), fmt)
+    points = []
+    for rtol in task.settings:
+        asked = [Tolerated(controller, Fraction(rtol), Fraction(rtol))]
+        clocked: list[float] = []
+        while len(clocked) < CLOCKED_RUNS and sum(clocked) <= BRIEF:
+            (cell,) = score_adaptive(pair, [course], asked, fmt, MOST_ATTEMPTS, relative=False)
+            clocked.append(cell.seconds)
+        point = _failed(task, rtol, cell.failure) if cell.failure else _point(task, rtol, cell, min(clocked))
+        points.append(point)
+    return tuple(points)
+
+
 def _solved(task: Task) -> tuple[WorkPoint, ...]:
     (solver,) = select([task.name])
     cells = score_solver(solver, list(questions(task.problem, task.t_end, task.settings, task.limit)))
@@ -171,11 +203,19 @@ def _solved(task: Task) -> tuple[WorkPoint, ...]:
     )
 
 
-def _point(task: Task, setting: float, cell: Cell | SolverCell, seconds: float | None) -> WorkPoint:
+_WORK: dict[str, Callable[[Task], tuple[WorkPoint, ...]]] = {
+    "method": _marched,
+    "adaptive": _controlled,
+    "solver": _solved,
+}
+"""What is done with a task of each kind."""
+
+
+def _point(task: Task, setting: float, cell: Cell | AdaptiveCell | SolverCell, seconds: float | None) -> WorkPoint:
     return WorkPoint(
         family=task.family,
         amplitude=task.amplitude,
-        name=task.name,
+        name=task.label,
         kind=task.kind,
         setting=setting,
         max_error=float(cell.max_error),
@@ -190,7 +230,7 @@ def _failed(task: Task, setting: float, why: str) -> WorkPoint:
     return WorkPoint(
         family=task.family,
         amplitude=task.amplitude,
-        name=task.name,
+        name=task.label,
         kind=task.kind,
         setting=setting,
         max_error=math.nan,
@@ -236,6 +276,8 @@ def plan(
     rtol: Sequence[float] = DEFAULT_RTOL,
     t_end: float = 10.0,
     max_evaluations: int = DEFAULT_LIMIT,
+    adaptive: Sequence[str] = (),
+    controllers: Sequence[str] = step_controllers.DEFAULT,
 ) -> Plan:
     """Put together what a report covers; what is asked wrongly is found here, before anything is computed.
 
@@ -246,9 +288,11 @@ def plan(
         methods: methods with a fixed step, or "all"; ``compare.methods.DEFAULT`` if None, and () for none.
         solvers: solvers or packages; all if None, and () for none.
         n: numbers of steps for methods.
-        rtol: tolerances for solvers.
+        rtol: tolerances for solvers, and for pairs with a controlled step; the absolute ones are the same.
         t_end: the last time in s, or in the problem's own unit; curves and descents end where they do.
         max_evaluations: of the right-hand side that a solver is granted for one answer.
+        adaptive: embedded pairs that march with a controlled step, or "all".
+        controllers: of their steps.
 
     Raises:
         ValueError: an argument is outside its range, or a name unknown.
@@ -259,7 +303,8 @@ def plan(
     asked = SOLVERS if solvers is None else select(() if solvers == () else some(solvers, "solvers"))
     own = {method.name: _own(method) for method in marched if isinstance(method, StepFunction)}
     counts = tuple(sorted({positive(count, "n") for count in some(n, "n")}))
-    settings = {"method": counts, "solver": tuple(tolerances(rtol))}
+    free = controlled(adaptive, controllers, rtol) if adaptive else None
+    settings = {"method": counts, **dict.fromkeys(("adaptive", "solver"), tuple(tolerances(rtol)))}
     tasks: list[Task] = []
     left_out: dict[str, list[str]] = {}
     given = _given(list(kinds.values()), amplitudes)
@@ -268,12 +313,13 @@ def plan(
             problem = one.problem(amplitude)
             end = float(one.end.of(problem, None)) if one.end.each else t_end
             question = next(questions(problem, end, rtol, max_evaluations))
-            for name, kind, suits in _suited(question, marched, asked):
+            for name, kind, controller, suits in _suited(question, marched, free, asked):
                 if suits:
                     asked_for = (key, amplitude, name, kind, settings[kind], question.end, max_evaluations)
-                    tasks.append(Task(*asked_for, own.get(name) if kind == "method" else None))
+                    tasks.append(Task(*asked_for, own.get(name) if kind == "method" else None, controller))
                 else:
-                    left_out.setdefault(one.label(amplitude), []).append(name)
+                    lacking = left_out.setdefault(one.label(amplitude), [])
+                    lacking += [name] * (name not in lacking)
     if not tasks:
         raise ValueError("there is nothing to report on: no method and no solver that is installed is asked for.")
     cases = dict.fromkeys((reported_by(task.family), task.amplitude, task.t_end) for task in tasks)
@@ -283,6 +329,7 @@ def plan(
         "samples": SAMPLES,
         "n": list(counts),
         "rtol": list(settings["solver"]),
+        **({} if free is None else {name: free.parameters[name] for name in ("adaptive", "controllers")}),
     }
     return Plan(tuple(tasks), {s.package: s.install for s in asked if s.version is None}, left_out, parameters)
 
@@ -306,11 +353,16 @@ def _ends(cases: Iterable[tuple[Reported, Amplitude, float]], t_end: float) -> d
 
 
 def _suited(
-    question: Question, methods: Sequence[Method], solvers: Sequence[Solver]
-) -> Iterator[tuple[str, str, bool]]:
-    """The methods, and the solvers that are here: name, kind, and whether the problem has what they need."""
-    yield from ((method.name, "method", fits(method, question.problem)) for method in methods)
-    yield from ((s.name, "solver", s.solves(question)) for s in solvers if s.version is not None)
+    question: Question, methods: Sequence[Method], free: Controlled | None, solvers: Sequence[Solver]
+) -> Iterator[tuple[str, str, str, bool]]:
+    """Methods, pairs and the solvers that are here: name, kind, controller, and whether it fits the problem."""
+    yield from ((method.name, "method", "", fits(method, question.problem)) for method in methods)
+    if free is not None:
+        names = dict.fromkeys(one.controller.name for one in free.asked)
+        yield from (
+            (pair.name, "adaptive", name, fits(pair, question.problem)) for pair in free.pairs for name in names
+        )
+    yield from ((s.name, "solver", "", s.solves(question)) for s in solvers if s.version is not None)
 
 
 def _given(kinds: Sequence[Reported], amplitudes: Sequence[Amplitude] | None) -> tuple[Amplitude, ...]:
@@ -376,6 +428,7 @@ def _report(wanted: Plan, found: dict[Task, tuple[WorkPoint, ...]], where: str) 
         engine={
             **facts(wanted.tasks[0].limit),
             "methods": f"marched by code compiled by heyoka {hy.__version__}, in float64",
+            **({"controlled steps": STEPS} if "adaptive" in wanted.parameters else {}),
             **_manners(wanted, found),
             "clock": f"a march by itself, or the call of a solver; {where}",
         },

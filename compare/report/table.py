@@ -2,26 +2,26 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from compare.report.problems import reported_by
 from compare.report.records import WorkPoint
 from compare.show import text_table
 from compare.show.page import field_names
 from compare.show.study_page import study_page
-from compare.show.text_table import Column, Grid, Table
+from compare.show.text_table import Column, Table
+from compare.show.work import costs
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator, Sequence
+    from collections.abc import Iterator, Sequence
 
     from compare.report.records import Report
     from compare.show.page import Page
     from compare.show.study_page import Columns
 
-__all__ = ["TARGETS", "case_tables", "cases", "closing", "page", "tables"]
+__all__ = ["case_tables", "cases", "closing", "page", "tables"]
 
 COLUMNS: Columns = {"points": field_names(WorkPoint)}
-TARGETS = tuple(float(f"1e-{k}") for k in range(2, 15, 2))
 
 
 def tables(report: Report, width: int = 100) -> Iterator[Table]:
@@ -42,26 +42,10 @@ def case_tables(report: Report, title: str, points: Sequence[WorkPoint]) -> Iter
     """What an error costs on one problem."""
     names = {point.name for point in points}
     counts = [f"{name}: {what}" for name, what in report.counts.items() if name in names]
-    yield _costs(f"Evaluations, {title}", points, lambda point: point.evaluations, str, counts)
-    yield _costs(f"Seconds, {title}", points, lambda point: point.seconds, lambda cost: f"{cost:.1e}")
-
-
-def _costs(
-    title: str,
-    points: Sequence[WorkPoint],
-    cost: Callable[[WorkPoint], Any],
-    text: Callable[[Any], str],
-    notes: Sequence[str] = (),
-) -> Table:
-    def least(name: str, target: float) -> str:
-        costs = [cost(point) for point in points if point.name == name and point.max_error <= target]
-        return text(min(costs)) if costs else "-"
-
-    columns = Column("", left=True), *(Column(f"{target:.0e}") for target in TARGETS)
-    rows = tuple((name, *(least(name, t) for t in TARGETS)) for name in dict.fromkeys(p.name for p in points))
     units = reported_by(points[0].family).error_units
-    whole = f"{title}: the least of those measured whose largest error{f', in {units},' if units else ''} is below"
-    return Table(text_table.slug(title.lower()), whole, (Grid(columns, rows),), "\n".join(notes))
+    error, named = f"largest error{f', in {units},' if units else ''}", [(point.name, point) for point in points]
+    yield costs(f"Evaluations, {title}", named, error, lambda point: point.evaluations, notes=counts)
+    yield costs(f"Seconds, {title}", named, error, lambda point: point.seconds, lambda cost: f"{cost:.1e}")
 
 
 def closing(report: Report, width: int) -> Iterator[Table]:

@@ -16,7 +16,7 @@ from compare.show.plot_style import GREY, Ink, inks, label_right, saved, style
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
 
-    from compare.measure.records import Case, Cell, Study, Trace
+    from compare.measure.records import AdaptiveCell, Case, Cell, Study, Trace
 
 __all__ = ["FIGURES", "draw_curves", "figures", "files", "label", "told", "wide_figure"]
 
@@ -41,7 +41,7 @@ def figures(study: Study) -> Iterator[tuple[str, Figure]]:
     """Every figure with its name; one set an amplitude where the study has several."""
     for case in study.cases:
         suffix = told(case) if len(study.cases) > 1 else ""
-        for name, draw in _drawn(case):
+        for name, draw in _drawn(case) if study.error_vs_n else [("work-precision", work_figure)]:
             yield f"{study.problem}-{name}{suffix}", draw(study, case)
 
 
@@ -73,7 +73,7 @@ def error_figure(study: Study, case: Case) -> Figure:
 def work_figure(study: Study, case: Case) -> Figure:
     """Largest error against evaluations of the right-hand side."""
     figure, axes = wide_figure(f"Work and precision, {label(case)}", 0.92, _error_label(case))
-    draw_curves(axes, _curves(study, case), _ink(study), lambda cell: cell.evaluations)
+    draw_curves(axes, _curves(study, case) | _adaptive_curves(study, case), _ink(study), lambda cell: cell.evaluations)
     axes.set_xlabel("evaluations of the right-hand side")
     return figure
 
@@ -136,7 +136,8 @@ FIGURES: dict[str, Callable[[Study, Case], Figure]] = {
 def _ink(study: Study) -> dict[str, Ink]:
     """The same ink for a method in every figure; methods of one order are neighbours, hence of different colours."""
     declared = {fit.method: fit.declared_order for fit in study.order}
-    return inks(sorted(dict.fromkeys(cell.method for cell in study.error_vs_n), key=lambda m: declared.get(m, 0)))
+    fixed = sorted(dict.fromkeys(cell.method for cell in study.error_vs_n), key=lambda m: declared.get(m, 0))
+    return inks([*fixed, *dict.fromkeys(cell.name for cell in study.adaptive or ())])
 
 
 def _curves(study: Study, case: Case) -> dict[str, list[Cell]]:
@@ -145,6 +146,15 @@ def _curves(study: Study, case: Case) -> dict[str, list[Cell]]:
     for cell in sorted(study.error_vs_n, key=lambda cell: cell.n):
         if cell.case == case and math.isfinite(cell.max_error) and cell.max_error > 0:
             curves.setdefault(cell.method, []).append(cell)
+    return curves
+
+
+def _adaptive_curves(study: Study, case: Case) -> dict[str, list[AdaptiveCell]]:
+    """The cells of each pair and controller that a logarithmic axis can show, by falling tolerance."""
+    curves: dict[str, list[AdaptiveCell]] = {}
+    for cell in sorted(study.adaptive or (), key=lambda cell: -cell.rtol):
+        if cell.case == case and math.isfinite(cell.max_error) and cell.max_error > 0:
+            curves.setdefault(cell.name, []).append(cell)
     return curves
 
 

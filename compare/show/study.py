@@ -10,7 +10,7 @@ import math
 from operator import attrgetter
 from typing import TYPE_CHECKING, Any
 
-from compare.measure.records import Cell, Defect, Drift, FittedOrder, Growth, OwnPeriod, Phase
+from compare.measure.records import AdaptiveCell, Cell, Defect, Drift, FittedOrder, Growth, OwnPeriod, Phase
 from compare.show import text_table
 from compare.show.digits import (
     DOUBT,
@@ -28,6 +28,7 @@ from compare.show.digits import (
 from compare.show.page import field_names
 from compare.show.study_page import study_page
 from compare.show.text_table import Column, Grid, Table
+from compare.show.work import work_tables
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
@@ -47,6 +48,7 @@ COLUMNS: Columns = {
     "growth": field_names(Growth, "rounding"),
     "period": field_names(OwnPeriod),
     "defects": field_names(Defect),
+    "adaptive": field_names(AdaptiveCell, "seconds"),
 }
 """What programs are given of each table's records."""
 _GROWTH_NOTE = (
@@ -258,6 +260,10 @@ def _error_cell(cell: Cell) -> tuple[str, str]:
     return scientific(cell.max_error, cell.rounding), _local_order(cell)
 
 
+def _work(study: Study, case: Case, _: dict[str, int], width: int) -> Iterator[Table]:
+    yield from work_tables(study, case, width)
+
+
 def _order_table(fits: Sequence[FittedOrder]) -> Table:
     at = fits[0].case.label
     columns = (
@@ -353,6 +359,7 @@ _DECIMALS = (".4f", ".3f", ".2f")
 
 _TABLES: dict[str, Callable[[Study, Case, dict[str, int], int], Iterator[Table]]] = {
     "error": _error,
+    "work": _work,
     "drift": _drift,
     "norms": _norms,
     "phase": _phase,

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from compare.controlled import tolerances
 from compare.measure.cases import case_of
 from compare.measure.truth import SAMPLES
 from compare.scored import some
@@ -30,7 +31,7 @@ if TYPE_CHECKING:
     from compare.solvers.solver import Solver
     from reference.problem import Problem
 
-__all__ = ["DEFAULT_LIMIT", "DEFAULT_RTOL", "QUICK_LIMIT", "QUICK_RTOL", "facts", "questions", "study", "tolerances"]
+__all__ = ["DEFAULT_LIMIT", "DEFAULT_RTOL", "QUICK_LIMIT", "QUICK_RTOL", "facts", "questions", "study"]
 
 DEFAULT_RTOL = tuple(float(f"1e-{k}") for k in range(3, 14))
 DEFAULT_LIMIT = 200_000
@@ -128,20 +129,6 @@ def questions(problem: Problem, t_end: Any, rtol: Sequence[float], limit: int) -
     times = np.linspace(0.0, float(end), SAMPLES + 1)
     for tolerance in tolerances(rtol):
         yield Question(problem, times, tolerance, positive(limit, "max_evaluations"), event_of(problem))
-
-
-def tolerances(rtol: Sequence[float]) -> list[float]:
-    """The tolerances, each once, from the loosest to the tightest.
-
-    Raises:
-        ValueError: one is not in (0, 1), or there is none.
-        TypeError: ``rtol`` is no sequence.
-    """
-    asked = {exact(value, "rtol") for value in some(rtol, "rtol")}
-    for tolerance in asked:
-        if not TINY <= tolerance < 1:
-            raise ValueError(f"rtol is {as_number(tolerance)}; a number with 0 < rtol < 1 is accepted.")
-    return sorted(map(float, asked), reverse=True)
 
 
 def _entry(solver: Solver) -> SolverEntry:

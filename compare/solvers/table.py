@@ -3,17 +3,18 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from compare.show import text_table
 from compare.show.page import field_names
 from compare.show.study_page import study_page
 from compare.show.text_table import Column, Grid, Table
+from compare.show.work import against_rtol, at_tolerances, two_digits
 from compare.solvers.records import EventCell, SolverCell, SolverEntry
 from compare.solvers.solver import CALLS
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator, Sequence
+    from collections.abc import Iterator, Sequence
 
     from compare.measure.records import Case
     from compare.show.page import Page
@@ -68,18 +69,19 @@ def _cells(study: SolverStudy, cells: Sequence[SolverCell], case: Case, width: i
     notes += [f"{dial} stands for rtol with {', '.join(who)}" for dial, who in _other_dials(dials, cells).items()]
 
     def error(cell: SolverCell) -> str:
-        return _digits(cell.max_error) + (OTHER if _is_other(cell, dials[cell.solver]) else "")
+        return two_digits(cell.max_error) + (OTHER if _is_other(cell, dials[cell.solver]) else "")
 
     title = f"Error against rtol, {at}: largest {case.absolute}"
-    yield _table(f"error-vs-rtol-{text_table.slug(at)}", title, cells, error, width, notes)
+    named = _named(cells)
+    yield against_rtol(f"error-vs-rtol-{text_table.slug(at)}", title, named, error, width, notes)
     counts = {entry.solver: entry.counts for entry in study.solvers}
     strange = [f"{name}: {counts[name]}" for name in dict.fromkeys(c.solver for c in cells) if counts[name] != CALLS]
     title = f"Evaluations against rtol, {at}: {CALLS}"
-    yield _table(
-        f"evaluations-{text_table.slug(at)}", title, cells, lambda cell: _count(cell.evaluations), width, strange
+    yield against_rtol(
+        f"evaluations-{text_table.slug(at)}", title, named, lambda cell: _count(cell.evaluations), width, strange
     )
     title = f"Seconds against rtol, {at}"
-    yield _table(f"seconds-{text_table.slug(at)}", title, cells, lambda cell: _digits(cell.seconds), width)
+    yield against_rtol(f"seconds-{text_table.slug(at)}", title, named, lambda cell: two_digits(cell.seconds), width)
 
 
 def _is_other(cell: SolverCell, dial: str) -> bool:
@@ -101,14 +103,14 @@ def _events(events: Sequence[EventCell], case: Case, width: int) -> Table:
     def entry(event: EventCell) -> str:
         few = f" {event.matched} of {event.expected}" if event.matched < event.expected else ""
         more = f" +{event.spurious}" if event.spurious else ""
-        return _digits(event.max_error) + few + more
+        return two_digits(event.max_error) + few + more
 
     units = f", in {case.step}" if case.step else ""
     title = f"Events, {at}: largest |t - exact| over the {case.events}{units}"
     first = [event.solver for event in events if event.first_only]
     notes = [_EVENTS_NOTE] if any(event.matched < event.expected or event.spurious for event in events) else []
     notes += [f"the first passage only: {', '.join(dict.fromkeys(first))}"] if first else []
-    return _table(f"events-{text_table.slug(at)}", title, events, entry, width, notes)
+    return against_rtol(f"events-{text_table.slug(at)}", title, _named(events), entry, width, notes)
 
 
 def _said(study: SolverStudy, width: int) -> Iterator[Table]:
@@ -125,62 +127,14 @@ def _said(study: SolverStudy, width: int) -> Iterator[Table]:
             said.setdefault((event.solver, f"events: {event.failure}"), []).append(event.rtol)
     if not said:
         return
-    asked = sorted({cell.rtol for cell in study.error_vs_rtol}, reverse=True)
-    rows = [(who, _runs([asked.index(rtol) for rtol in at], asked), what) for (who, what), at in said.items()]
+    asked = [cell.rtol for cell in study.error_vs_rtol]
+    rows = [(who, at_tolerances(at, asked), what) for (who, what), at in said.items()]
     columns = Column("solver", left=True), Column("rtol", left=True), Column("what it said", left=True)
     yield Table("said", "What the solvers said", (text_table.folded(columns, rows, width),))
 
 
-def _runs(places: Sequence[int], asked: Sequence[float]) -> str:
-    """Tolerances by their places among those asked for, neighbours as from ... to ..."""
-    runs: list[list[int]] = []
-    for place in sorted(set(places)):
-        if runs and runs[-1][-1] == place - 1:
-            runs[-1].append(place)
-        else:
-            runs.append([place])
-    return ", ".join(" to ".join(_brief(asked[i]) for i in dict.fromkeys((run[0], run[-1]))) for run in runs)
-
-
-def _table(
-    name: str,
-    title: str,
-    cells: Sequence[SolverCell] | Sequence[EventCell],
-    text: Callable[..., str],
-    width: int,
-    notes: Sequence[str] = (),
-) -> Table:
-    """Solvers down, tolerances across, over as many grids as the width needs."""
-    found = {(cell.solver, cell.rtol): text(cell) for cell in cells}
-    solvers = list(dict.fromkeys(cell.solver for cell in cells))
-
-    def build(tolerances: Sequence[float]) -> Grid:
-        columns = [Column("solver", left=True), *(Column(_brief(rtol)) for rtol in tolerances)]
-        return Grid(
-            tuple(columns), tuple((who, *(found.get((who, rtol), "-") for rtol in tolerances)) for who in solvers)
-        )
-
-    tolerances = list(dict.fromkeys(cell.rtol for cell in cells))
-    for parts in range(1, len(tolerances) + 1):
-        grids = [build(part) for part in _parts(tolerances, parts)]
-        if all(text_table.text_width(one) <= width for one in grids):
-            break
-    return Table(name, title, tuple(grids), "\n".join(notes))
-
-
-def _parts(tolerances: Sequence[float], count: int) -> list[Sequence[float]]:
-    """The tolerances in consecutive parts of about one length."""
-    size = -(-len(tolerances) // count)
-    return [tolerances[i : i + size] for i in range(0, len(tolerances), size)]
-
-
-def _brief(rtol: float) -> str:
-    """The tolerance as people write it, where one digit says it."""
-    return f"{rtol:.0e}" if float(f"{rtol:.0e}") == rtol else repr(rtol)
-
-
-def _digits(value: float | None) -> str:
-    return "-" if value is None or not math.isfinite(value) else f"{value:.1e}"
+def _named(cells: Sequence[SolverCell] | Sequence[EventCell]) -> list[tuple[str, Any]]:
+    return [(cell.solver, cell) for cell in cells]
 
 
 def _count(value: int | None) -> str:

@@ -14,6 +14,7 @@ import numpy as np
 import pytest
 
 from compare.__main__ import main
+from compare.controlled import error_vs_rtol
 from compare.march.march import march, march_alone
 from compare.march.precision import precision
 from compare.measure.truth import Course
@@ -68,9 +69,26 @@ def test_a_plan_is_the_product_of_what_is_asked_for():
     assert plan(**{**SMALL, "t_end": 4.0}).identity != wanted.identity
 
 
+def test_pairs_with_a_controlled_step_stand_beside_methods_and_solvers():
+    wanted = plan(**{**SMALL, "amplitudes": [1.0], "adaptive": ["dopri5"], "controllers": ["i", "pi"]})
+    tasks = [task for task in wanted.tasks if task.kind == "adaptive"]
+    assert [(task.name, task.controller, task.settings) for task in tasks] == [
+        ("dormand_prince54", controller, (1e-5, 1e-9)) for controller in ("i", "pi")
+    ]
+    assert wanted.parameters["controllers"] == ["i", "pi"]
+    points = work(tasks[1])
+    cells = error_vs_rtol(Pendulum(1.0), ["dopri5"], ["pi"], [1e-5, 1e-9], t_end=3)
+    assert {point.name for point in points} == {"dormand_prince54, pi"}
+    assert [point.evaluations for point in points] == [cell.evaluations for cell in cells]
+    assert [point.max_error for point in points] == [cell.max_error for cell in cells]
+    assert all(point.seconds > 0 for point in points)
+
+
 @pytest.mark.parametrize(
     ("options", "says"),
     [
+        ({"adaptive": ["rk4"]}, "rk4 has no embedded result"),
+        ({"adaptive": ["dopri5"], "controllers": ["p"]}, "controller 'p' is unknown"),
         ({"problems": ["pendulm"]}, "problem 'pendulm' is unknown, perhaps pendulum"),
         ({"amplitudes": [4.0]}, "theta0 is 4.0"),
         ({"methods": ["rk5x"]}, "method 'rk5x' is unknown"),

@@ -9,11 +9,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import groupby, pairwise
+from operator import sub
 from typing import TYPE_CHECKING, Any, ClassVar, TypeAlias
 
 from compare.methods.kinds import fixed_point, newton
 from compare.methods.kinds.increment import advance, increment, part, turned
-from compare.methods.kinds.protocol import Method, OneStep, State, System
+from compare.methods.kinds.protocol import AttemptWork, Embedded, Method, OneStep, State, System
 from compare.methods.order.algebraic import EXACT, PROOF_BITS, Coefficient, Q, provable, vanishes
 from reference.arithmetic.precision import ctx
 from reference.names import unknown
@@ -74,14 +75,6 @@ def used_stages(matrix: Matrix, b: Sequence[Any]) -> tuple[int, ...]:
 
 ITERATIONS = {"Newton's method": newton, "fixed-point iteration": fixed_point}
 """How the slopes of implicit stages are found."""
-
-
-@dataclass(frozen=True)
-class Embedded:
-    """Other weights on the stages of a Runge-Kutta method: a result of another order, to estimate the error by."""
-
-    order: int
-    b: tuple[Coefficient, ...]
 
 
 @dataclass(frozen=True)
@@ -184,10 +177,42 @@ class Tableau(OneStep):
         if not self.explicit:
             solved, changes = self._iteration.slopes(system, y, h, (self.matrix,) * len(y), iterations)
             return advance(system, y, h, self.b, solved), increment(system, h, self.b, changes)
+        return advance(system, y, h, self.b, self._slopes(system, y, h, self.used)), ()
+
+    def _slopes(self, system: System, y: State, h: Any, used: tuple[int, ...]) -> list[State]:
+        """The slopes of the stages of an explicit method, of those that are used."""
         slopes: list[State] = []
         for i, row in enumerate(self.matrix):
-            slopes.append(system.derivative(advance(system, y, h, row, slopes)) if i in self.used else ())
-        return advance(system, y, h, self.b, slopes), ()
+            slopes.append(system.derivative(advance(system, y, h, row, slopes)) if i in used else ())
+        return slopes
+
+    @cached_property
+    def _compared(self) -> tuple[int, ...]:
+        """The stages that a step needs whose error is estimated."""
+        weights = self.b, *(other.b for other in self.embedded)
+        return tuple(sorted({i for b in weights for i in used_stages(self.matrix, b)}))
+
+    def attempt(self, system: System, y: State, h: Any, iterations: int = 0) -> tuple[State, tuple[State, ...], State]:
+        changed: State = ()
+        if self.explicit:
+            slopes = self._slopes(system, y, h, self._compared)
+        else:
+            slopes, changes = self._iteration.slopes(system, y, h, (self.matrix,) * len(y), iterations)
+            changed = increment(system, h, self.b, changes)
+        own: Matrix = [self.b] * len(self.embedded)
+        apart = (map(sub, b, other.b) for b, other in zip(own, self.embedded, strict=True))
+        estimates = tuple(increment(system, h, tuple(weights), slopes) for weights in apart)
+        return advance(system, y, h, self.b, slopes), estimates, changed
+
+    def attempt_work(self, iterations: int) -> AttemptWork:
+        """An explicit method's first stage stands at the state itself, and an iteration begins with the slope there."""
+        if self.explicit:
+            return AttemptWork(len(self._compared) - 1, 0 if self.fsal else 1)
+        return AttemptWork(
+            self._iteration.evaluations(self.matrix, iterations) - 1,
+            1,
+            self._iteration.jacobians(self.matrix, iterations),
+        )
 
 
 @dataclass(frozen=True)

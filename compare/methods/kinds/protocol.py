@@ -6,12 +6,13 @@ run on floats, on NumPy arrays of any type, and on heyoka's symbols, which compi
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, ClassVar, Protocol
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, ClassVar, Protocol, runtime_checkable
 
 if TYPE_CHECKING:
     from compare.methods.order.algebraic import Coefficient, Enclosed
 
-__all__ = ["Equation", "Method", "OneStep", "State", "System"]
+__all__ = ["AttemptWork", "Embedded", "Equation", "Method", "OneStep", "Pair", "State", "System"]
 
 State = tuple[Any, ...]
 """The numbers that a lane carries from step to step: the problem's state, then what the method remembers."""
@@ -124,6 +125,45 @@ class Method(Protocol):
 
     def step(self, system: System, y: State, h: Any, iterations: int = 0) -> tuple[State, State]:
         """The state and memory after a step, and what the last iteration changed (nothing in an explicit method)."""
+
+
+@dataclass(frozen=True)
+class Embedded:
+    """Other weights on the stages of a method: a result of another order, to estimate the error by."""
+
+    order: int
+    b: tuple[Coefficient, ...]
+
+
+@dataclass(frozen=True)
+class AttemptWork:
+    """What an attempt at a step costs, whether it is accepted or not, and what each new state costs besides.
+
+    Attributes:
+        evaluations: of the right-hand side in an attempt, without what is known of the state that it starts from.
+        at_state: evaluations at that state, which serve every attempt from there; 0 where the step before gave them.
+        jacobians: of its Jacobian in an attempt.
+        jacobians_at_state: of its Jacobian at that state.
+    """
+
+    evaluations: int
+    at_state: int
+    jacobians: int = 0
+    jacobians_at_state: int = 0
+
+
+@runtime_checkable
+class Pair(Method, Protocol):
+    """A method that can estimate the error of its step, where any results are ``embedded`` in it."""
+
+    @property
+    def embedded(self) -> tuple[Embedded, ...]: ...
+
+    def attempt(self, system: System, y: State, h: Any, iterations: int = 0) -> tuple[State, tuple[State, ...], State]:
+        """The state after a step, what it is apart from each embedded result, and what the last iteration changed."""
+
+    def attempt_work(self, iterations: int) -> AttemptWork:
+        """What an attempt at a step costs."""
 
 
 class OneStep:
