@@ -7,9 +7,10 @@ from typing import TYPE_CHECKING, Any
 from compare.report.problems import reported_by
 from compare.report.records import WorkPoint
 from compare.show import text_table
+from compare.show.costs import costs
 from compare.show.page import field_names
 from compare.show.study_page import study_page
-from compare.show.text_table import Column, Grid, Table
+from compare.show.text_table import Column, Table
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
@@ -18,10 +19,9 @@ if TYPE_CHECKING:
     from compare.show.page import Page
     from compare.show.study_page import Columns
 
-__all__ = ["TARGETS", "case_tables", "cases", "closing", "page", "tables"]
+__all__ = ["case_tables", "cases", "closing", "page", "tables"]
 
 COLUMNS: Columns = {"points": field_names(WorkPoint)}
-TARGETS = tuple(float(f"1e-{k}") for k in range(2, 15, 2))
 
 
 def tables(report: Report, width: int = 100) -> Iterator[Table]:
@@ -53,15 +53,9 @@ def _costs(
     text: Callable[[Any], str],
     notes: Sequence[str] = (),
 ) -> Table:
-    def least(name: str, target: float) -> str:
-        costs = [cost(point) for point in points if point.name == name and point.max_error <= target]
-        return text(min(costs)) if costs else "-"
-
-    columns = Column("", left=True), *(Column(f"{target:.0e}") for target in TARGETS)
-    rows = tuple((name, *(least(name, t) for t in TARGETS)) for name in dict.fromkeys(p.name for p in points))
+    found = [(point.name, point.max_error, cost(point)) for point in points]
     units = reported_by(points[0].family).error_units
-    whole = f"{title}: the least of those measured whose largest error{f', in {units},' if units else ''} is below"
-    return Table(text_table.slug(title.lower()), whole, (Grid(columns, rows),), "\n".join(notes))
+    return costs(text_table.slug(title.lower()), title, f"error, in {units}," if units else "error", found, text, notes)
 
 
 def closing(report: Report, width: int) -> Iterator[Table]:
