@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import takewhile
 from typing import TYPE_CHECKING, Any
 
 from compare.baseline import asked_margin
@@ -92,6 +93,7 @@ def parse(words: Sequence[str]) -> Request:
     if not words:
         names = [command for command, family in _families().items() if family.has_closed_form]
         raise ValueError(f"no command is given; {_alternatives((*names, *COMMANDS, 'a flow'))} is accepted.")
+    words = _with_problems(words)
     known = parser_for(words).parse_args(words)
     family = getattr(known, "family", None)
     if family is not None:
@@ -111,6 +113,13 @@ def parse(words: Sequence[str]) -> Request:
         baseline=getattr(known, "baseline", None),
         margin=asked_margin(known),
     )
+
+
+def _with_problems(words: Sequence[str]) -> list[str]:
+    """The words, with --problem before each name of a problem that stands right behind ``solvers``."""
+    first, rest = words[0], list(words[1:])
+    names = list(takewhile(lambda word: not word.startswith("-"), rest)) if first == "solvers" else []
+    return [first, *(word for name in names for word in ("--problem", name)), *rest[len(names) :]]
 
 
 def _asked(words: Sequence[str]) -> tuple[tuple[Family, ...], ...]:

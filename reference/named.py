@@ -22,7 +22,7 @@ __all__ = ["EQUATION", "is_own", "named", "program", "program_at", "with_equatio
 EQUATION = ".toml"
 """How the name of a file with an equation ends."""
 FLOW, CONFIG = "flow", "--config"
-BEFORE = ("at", "--problem", "--problems", "--family")
+BEFORE = ("at", "solvers", "--problem", "--problems", "--family")
 """After these words, and as the first one, ``flow`` stands for a problem."""
 
 

@@ -4,7 +4,21 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from compare.solvers import desolver, diffrax, extensisq, heyoka, numbalsoda, pyhamsys, rebound, scipy
+from compare.solvers import (
+    desolver,
+    diffrax,
+    extensisq,
+    gala,
+    heyoka,
+    numbalsoda,
+    probdiffeq,
+    pyhamsys,
+    rebound,
+    scipy,
+    sksundae,
+    torchdiffeq,
+    torchode,
+)
 from reference.names import unknown
 
 if TYPE_CHECKING:
@@ -14,7 +28,21 @@ if TYPE_CHECKING:
 
 __all__ = ["SOLVERS", "select"]
 
-PACKAGES = (scipy, heyoka, diffrax, numbalsoda, desolver, extensisq, pyhamsys, rebound)
+PACKAGES = (
+    scipy,
+    heyoka,
+    diffrax,
+    numbalsoda,
+    desolver,
+    extensisq,
+    pyhamsys,
+    rebound,
+    sksundae,
+    torchdiffeq,
+    torchode,
+    probdiffeq,
+    gala,
+)
 SOLVERS: tuple[Solver, ...] = tuple(solver for package in PACKAGES for solver in package.SOLVERS)
 
 

@@ -60,6 +60,8 @@ def _solver(method: str) -> Solver:
         call=f"solve_ivp(f, (0, T), y0, method='{method}', t_eval=times, rtol=rtol, atol=rtol)",
         prepare=partial(_prepare, method=method),
         events=partial(_events, method=method),
+        tolerance="root of the sum of squares of e_i / (atol + rtol s_i), at most about 1 in a step; "
+        "s_i a running mean of the larger of |y_i| and |y_i'|",
     )
 
 

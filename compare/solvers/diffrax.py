@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from compare.solvers.solver import Answer, Question, Solver, SolverError
+from compare.solvers.solver import RMS, Answer, Question, Solver, SolverError
 from reference.arithmetic.namespaces import JAX
 
 if TYPE_CHECKING:
@@ -15,13 +15,13 @@ if TYPE_CHECKING:
 
     from reference.problem import Problem
 
-__all__ = ["SOLVERS"]
+__all__ = ["SOLVERS", "field_of"]
 
 METHODS = ("Tsit5", "Dopri8")
 
 
-def _field(problem: Problem, tally: list[int] | None) -> Callable[[Any, Any, Any], Any]:
-    """dy/dt as diffrax takes it; with a tally, JAX calls back at every evaluation, which takes longer than it does."""
+def field_of(problem: Problem, tally: list[int] | None) -> Callable[[Any, Any], Any]:
+    """dy/dt in JAX; with a tally, JAX calls back at every evaluation, which takes longer than it does."""
     import jax
     import jax.numpy as jnp
 
@@ -31,10 +31,10 @@ def _field(problem: Problem, tally: list[int] | None) -> Callable[[Any, Any, Any
         if tally is not None:
             tally[0] += 1
 
-    def field(t: Any, y: Any, _args: Any) -> Any:
+    def field(t: Any, y: Any) -> Any:
         if tally is not None:
             jax.debug.callback(count)
-        return jnp.stack(problem.derivative(JAX, t, y, parameters))
+        return jnp.stack([jnp.asarray(rate, y.dtype) for rate in problem.derivative(JAX, t, y, parameters)])
 
     return field
 
@@ -52,14 +52,14 @@ def _compiled(
     from optimistix import Newton
 
     tally = [0]
-    field = _field(problem, tally if counting else None)
+    field = field_of(problem, tally if counting else None)
 
     def solve(start: Any, times: Any, rtol: Any, steps: int) -> Any:
         options: dict[str, Any] = {"saveat": diffrax.SaveAt(ts=times)}
         if event is not None:
             options = {"event": diffrax.Event(_condition(event), Newton(rtol=rtol, atol=rtol))}
         return diffrax.diffeqsolve(
-            diffrax.ODETerm(field),
+            diffrax.ODETerm(lambda t, y, _args: field(t, y)),
             getattr(diffrax, method)(),
             t0=0.0,
             t1=times[-1],
@@ -128,6 +128,7 @@ def _solver(method: str) -> Solver:
         prepare=partial(_prepare, method=method),
         events=partial(_events, method=method),
         first_only=True,
+        tolerance=RMS,
     )
 
 

@@ -27,5 +27,7 @@ def exact_events(problem: Problem, until: float) -> np.ndarray:
     if known is None:
         return np.empty((0, LIMBS))
     row, count = known
+    if not count:
+        return np.empty((0, LIMBS))
     found: np.ndarray = problem.values(row, range(count), LIMBS)[:, 0]
     return found

@@ -6,7 +6,7 @@ from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from compare.solvers.scipy import ask_solve_ivp, events_of_solve_ivp
-from compare.solvers.solver import Answer, Question, Solver
+from compare.solvers.solver import RMS, Answer, Question, Solver
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -51,6 +51,7 @@ def _solver(method: str) -> Solver:
         call=f"solve_ivp(f, (0, T), y0, method=extensisq.{method}, t_eval=times, rtol=rtol, atol=rtol)",
         prepare=partial(_prepare, method=method),
         events=partial(_events, method=method),
+        tolerance=RMS,
     )
 
 

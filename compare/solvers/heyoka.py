@@ -66,6 +66,8 @@ SOLVERS = (
         events=_events,
         aliases=("taylor",),
         dial="tol",
+        tolerance="largest last terms of the Taylor series in a step, over the larger of 1 and the largest |y_i|; "
+        "the order is 1 - ln(tol) / 2, rounded up",
         counts="Taylor coefficients of the right-hand side (steps x order)",
     ),
 )

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from compare.solvers.solver import Answer, Question, Solver, SolverError
+from compare.solvers.solver import LARGEST, RMS, Answer, Question, Solver, SolverError
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -195,12 +195,14 @@ SOLVERS = (
         package="numbalsoda",
         call="lsoda(f.address, y0, times, data, rtol=rtol, atol=rtol)",
         prepare=_prepare_lsoda,
+        tolerance=LARGEST,
     ),
     Solver(
         name="numbalsoda.dop853",
         package="numbalsoda",
         call="dop853(f.address, y0, times, data, rtol=rtol, atol=rtol); its events by solve_ivp(..., event_fcn=...)",
         prepare=_prepare_dop853,
+        tolerance=RMS,
         events=_events,
         first_only=True,
     ),

@@ -28,11 +28,12 @@ def add_options(parser: argparse.ArgumentParser, families: Sequence[Family]) -> 
         "--problem",
         action="append",
         metavar="NAME",
-        help=f"family of problems (default {USUAL}); may repeat, for one table of all of them",
+        help=f"family of problems, as is each name right behind 'solvers' (default {USUAL}); of several there is one "
+        "table",
     )
     inputs_offered(families, parser)
     parser.add_argument(
-        "--t-end",
+        *("--t-end", "--t"),
         metavar="T",
         help="the last time in s, or in the problem's unit (default 10, or the problem's own); T,T of several",
     )
@@ -75,8 +76,6 @@ def options(known: argparse.Namespace, families: Sequence[Family]) -> dict[str, 
     ]
     if len(asked) == 1:
         return asked[0]
-    if known.plots:
-        raise ValueError("--plots draws the curves of one problem; one --problem is accepted with it.")
     return {"several": asked}
 
 

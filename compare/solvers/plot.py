@@ -8,14 +8,15 @@ from typing import TYPE_CHECKING
 from compare.show.plot import draw_curves, told, wide_figure
 from compare.show.plot import label as label_of
 from compare.show.plot_style import inks, saved, style
+from compare.solvers.records import SolverStudy
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
+    from collections.abc import Callable, Iterator, Sequence
 
     from matplotlib.figure import Figure
 
     from compare.measure.records import Case
-    from compare.solvers.records import SolverCell, SolverStudy
+    from compare.solvers.records import SolverCell
 
 __all__ = ["FIGURES", "figures", "files"]
 
@@ -31,10 +32,21 @@ FIGURES: dict[str, tuple[str, str, Callable[[SolverCell], float]]] = {
 """Each figure's title, the label of its axis, and a cell's place along it."""
 
 
-def files(study: SolverStudy) -> dict[str, bytes]:
-    """Every figure of the study, as PNG and as SVG, by file name."""
+def files(studies: SolverStudy | Sequence[SolverStudy]) -> dict[str, bytes]:
+    """Every figure of one study or of several, as PNG and as SVG, by file name."""
+    several = [studies] if isinstance(studies, SolverStudy) else studies
+    drawn: dict[str, bytes] = {}
     with style():
-        return {f"{name}.{suffix}": image for name, figure in figures(study) for suffix, image in saved(figure).items()}
+        for study in several:
+            apart = f"-t-{study.parameters['t_end']!r}" if _twice(study, several) else ""
+            for name, figure in figures(study):
+                drawn |= {f"{name}{apart}.{suffix}": image for suffix, image in saved(figure).items()}
+    return drawn
+
+
+def _twice(study: SolverStudy, several: Sequence[SolverStudy]) -> bool:
+    """Whether there is another study of the same problem, which an end of its own tells from this one."""
+    return sum(other.problem == study.problem for other in several) > 1
 
 
 def figures(study: SolverStudy) -> Iterator[tuple[str, Figure]]:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from compare.solvers.solver import Answer, Counted, Question, Solver, StoppedError
+from compare.solvers.solver import STEP, Answer, Counted, Question, Solver, StoppedError, step_for
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -17,11 +17,6 @@ __all__ = ["SOLVERS"]
 ORDERS = {"Verlet": 2, "BM4": 4, "BM6": 6}
 MAX_STEPS = 20_000
 """Steps that are asked for at most: pyhamsys searches all of its times at every step, n^2 comparisons for n steps."""
-
-
-def step_for(question: Question, order: int) -> float:
-    """rtol^(1/order) over the problem's rate: the step in s whose error per step is of the tolerance's size."""
-    return float(question.rtol ** (1 / order) / question.problem.rate())
 
 
 def _prepare(question: Question, method: str) -> Callable[[], Answer]:
@@ -60,6 +55,7 @@ def _solver(method: str) -> Solver:
         f"solver='{method}'))",
         prepare=partial(_prepare, method=method),
         dial="step",
+        tolerance=STEP,
         counts="evaluations of the force",
         accepts="separable problems",
         solves=lambda question: question.positions > 0,

@@ -1,13 +1,17 @@
-"""REBOUND's IAS15: Gauss-Radau quadrature of order 15 for particles, here one particle moved by the problem's force."""
+"""REBOUND: IAS15 for particles, here one that is moved by the problem's force, and BS for any equation.
+
+IAS15 is Gauss-Radau quadrature of order 15, BS extrapolation after Gragg, Bulirsch and Stoer.
+"""
 
 from __future__ import annotations
 
+import math
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from compare.solvers.solver import Answer, Counted, Question, Solver, SolverError
+from compare.solvers.solver import LARGEST, Answer, Counted, Question, Solver, SolverError
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -19,8 +23,7 @@ AXES = ("x", "y", "z")
 
 def _solves(question: Question) -> bool:
     """Whether q' = p, in at most three dimensions: a particle has no other kinematics."""
-    momenta = np.arange(1.0, 1.0 + question.positions)
-    return 0 < question.positions <= len(AXES) and np.array_equal(Counted(question).velocity(momenta), momenta)
+    return question.positions <= len(AXES) and question.newtonian
 
 
 def _prepare(question: Question, mode: str | None = None) -> Callable[[], Answer]:
@@ -64,6 +67,43 @@ def _prepare(question: Question, mode: str | None = None) -> Callable[[], Answer
     return run
 
 
+def _prepare_bs(question: Question) -> Callable[[], Answer]:
+    import rebound
+
+    size = len(question.start)
+
+    def run() -> Answer:
+        counted = Counted(question)
+        refused: list[SolverError] = []
+        simulation = rebound.Simulation()
+        simulation.integrator = "bs"
+        simulation.integrator.eps_rel = simulation.integrator.eps_abs = question.rtol
+        ode = simulation.create_ode(length=size, needs_nbody=False)
+        for place, value in enumerate(question.start):
+            ode.y[place] = value
+
+        def field(_ode: Any, rates: Any, y: Any, t: float) -> None:
+            try:
+                found = counted.derivative(t, y[:size])
+            except SolverError as error:  # an exception would be lost on its way through compiled code
+                refused.append(error)
+                simulation.stop()
+                found = [math.nan] * size
+            for place, rate in enumerate(found):
+                rates[place] = rate
+
+        ode.derivatives = field
+        states = []
+        for time in question.times:
+            simulation.integrate(time)
+            if refused:
+                raise refused[0]
+            states.append(ode.y[:size])
+        return Answer(np.array(states), counted.evaluations, float(simulation.integrator.eps_rel))
+
+    return run
+
+
 def _solver(name: str, mode: str | None) -> Solver:
     chosen = f"; sim.integrator.adaptive_mode = '{mode}'" if mode is not None else ""
     return Solver(
@@ -72,13 +112,28 @@ def _solver(name: str, mode: str | None) -> Solver:
         call=f"sim.integrator = 'ias15'; sim.integrator.epsilon = rtol{chosen}; for t in times: sim.integrate(t)",
         prepare=partial(_prepare, mode=mode),
         dial="epsilon",
+        tolerance="last term of the series of the acceleration over the acceleration, about epsilon in a step"
+        if mode == "global"
+        else "step over the time scale of the derivatives of the acceleration, (5040 epsilon)^(1/7)",
         counts="evaluations of the force",
         accepts="problems with q' = p in at most three dimensions",
         solves=_solves,
     )
 
 
-SOLVERS = (_solver("rebound.IAS15", None), _solver("rebound.IAS15_global", "global"))
+SOLVERS = (
+    _solver("rebound.IAS15", None),
+    _solver("rebound.IAS15_global", "global"),
+    Solver(
+        name="rebound.BS",
+        package="rebound",
+        call="sim.integrator = 'bs'; sim.integrator.eps_rel = sim.integrator.eps_abs = rtol; "
+        "ode = sim.create_ode(length=n, needs_nbody=False); ode.derivatives = f; for t in times: sim.integrate(t)",
+        prepare=_prepare_bs,
+        tolerance=LARGEST,
+        aliases=("BS",),
+    ),
+)
 """As it comes, its step is chosen by ratios of derivatives of the acceleration (Pham, Rein and Spiegel, Open J.
 Astrophys. 7, 2024), which shrinks it where an acceleration in one dimension passes through zero; "global" is the
 criterion of Rein and Spiegel (Mon. Not. R. Astron. Soc. 446, 2015)."""

@@ -23,6 +23,7 @@ class SolverEntry:
         call: the call in one line.
         dial: what its tolerance is called, or what stands in its place.
         counts: what its evaluations are.
+        tolerance: what its tolerance bounds.
     """
 
     solver: str
@@ -32,6 +33,7 @@ class SolverEntry:
     call: str
     dial: str
     counts: str
+    tolerance: str
 
 
 @dataclass(frozen=True)
@@ -50,6 +52,7 @@ class SolverCell(OfCase):
         failure: the solver's own message where it failed, or "".
         said: the solver's warnings.
         stopped: whether it failed because its work was bounded.
+        suited: whether the problem has what the solver needs; one that lacks it was not asked.
     """
 
     solver: str
@@ -64,6 +67,7 @@ class SolverCell(OfCase):
     failure: str
     said: str
     stopped: bool
+    suited: bool
 
     @property
     def floor(self) -> bool:

@@ -7,7 +7,7 @@ import warnings
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
-from compare.solvers.solver import Answer, Counted, Question, Solver, SolverError
+from compare.solvers.solver import LARGEST, RMS, Answer, Counted, Question, Solver, SolverError
 from reference.arithmetic.namespaces import NUMPY
 
 if TYPE_CHECKING:
@@ -111,6 +111,7 @@ def _solver(method: str) -> Solver:
         prepare=partial(_prepare, method=method),
         events=partial(events_of_solve_ivp, method=method),
         aliases=(method,),
+        tolerance=LARGEST if method == "LSODA" else RMS,
     )
 
 
@@ -122,5 +123,6 @@ SOLVERS = (
         call="odeint(f, y0, times, tfirst=True, rtol=rtol, atol=rtol, full_output=True)",
         prepare=_prepare_odeint,
         aliases=("odeint",),
+        tolerance=LARGEST,
     ),
 )

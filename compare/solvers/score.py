@@ -187,7 +187,10 @@ def score_solver(solver: Solver, questions: Sequence[Question]) -> list[SolverCe
     """
     cells: list[SolverCell] = []
     for question in questions:
-        if cells and cells[-1].stopped:
+        if not solver.solves(question):
+            why = f"it solves {solver.accepts}; {question.problem.name} is none of them"
+            cells.append(_cell(solver, question, Heard(None, why, ()), math.nan, suited=False))
+        elif cells and cells[-1].stopped:
             why = f"not asked: it was stopped at rtol {next(cell.rtol for cell in cells if cell.stopped):.0e}"
             cells.append(_cell(solver, question, Heard(None, why, (), stopped=True), math.nan))
         else:
@@ -195,7 +198,9 @@ def score_solver(solver: Solver, questions: Sequence[Question]) -> list[SolverCe
     return cells
 
 
-def _cell(solver: Solver, question: Question, found: Heard[Answer], seconds: float) -> SolverCell:
+def _cell(
+    solver: Solver, question: Question, found: Heard[Answer], seconds: float, *, suited: bool = True
+) -> SolverCell:
     answer = found.value
     errors = np.full((1, len(question.start)), np.nan) if answer is None else _errors(question, answer.states)
     space = question.problem.space
@@ -213,6 +218,7 @@ def _cell(solver: Solver, question: Question, found: Heard[Answer], seconds: flo
         failure=found.failure,
         said="; ".join(found.said),
         stopped=found.stopped,
+        suited=suited,
     )
 
 
@@ -224,8 +230,6 @@ def _errors(question: Question, states: np.ndarray) -> np.ndarray:
 
 def _asked(solver: Solver, question: Question) -> tuple[Heard[Answer], float]:
     """The answer, and the seconds of the shortest call after what is compiled has been."""
-    if not solver.solves(question):
-        return Heard(None, f"it solves {solver.accepts}; {question.problem.name} is none of them", ()), math.nan
     prepared = heard(lambda: solver.prepare(question))
     if prepared.value is None:
         return Heard(None, prepared.failure, prepared.said, prepared.stopped), math.nan
@@ -238,6 +242,8 @@ def _asked(solver: Solver, question: Question) -> tuple[Heard[Answer], float]:
         answer, seconds = found.value
         if answer.states.shape != (len(question.times), len(question.start)):
             return Heard(None, f"it returned states of shape {answer.states.shape}", found.said), math.nan
+        if not np.isfinite(answer.states).all():
+            return Heard(None, "it returned states that are not finite", found.said), math.nan
         shortest, spent = min(shortest, seconds), spent + seconds
         if spent > BRIEF:
             break

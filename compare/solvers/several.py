@@ -7,15 +7,16 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from compare.show.page import Head, Lines, Page, field_names, fields_of, plain
-from compare.show.text_table import Column, Grid, Table
+from compare.show.text_table import Column, Grid, Table, slug
 from compare.solvers.solver import CALLS
 from compare.solvers.study import study
-from compare.solvers.table import OTHER, TOLERANCES
+from compare.solvers.table import OTHER, TOLERANCES, bounded, work
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping, Sequence
     from concurrent.futures import Executor
 
+    from compare.measure.records import Case
     from compare.show.page import Block
     from compare.solvers.records import SolverStudy
 
@@ -44,6 +45,7 @@ class Missed:
         counts: what its evaluations are.
         failure: the solver's own message where it failed, or "".
         said: the solver's warnings.
+        suited: whether the problem has what the solver needs; one that lacks it was not asked.
     """
 
     problem: str
@@ -61,6 +63,7 @@ class Missed:
     counts: str
     failure: str
     said: str
+    suited: bool
 
 
 def studies(
@@ -74,40 +77,49 @@ def studies(
 
 def missed(found: Sequence[SolverStudy]) -> Iterator[Missed]:
     """The cells of the studies, with what tells their problems apart."""
-    for one in found:
+    for one, case, end in _cases(found):
         entries = {entry.solver: entry for entry in one.solvers}
+        for cell in (cell for cell in one.error_vs_rtol if cell.case == case):
+            yield Missed(
+                problem=one.problem,
+                case=case.label,
+                t_end=end,
+                solver=cell.solver,
+                rtol=cell.rtol,
+                used=cell.used,
+                max_error=cell.max_error,
+                end_error=cell.end_error,
+                velocity_error=cell.velocity_error,
+                multiple=cell.max_error / cell.rtol,
+                evaluations=cell.evaluations,
+                dial=entries[cell.solver].dial,
+                counts=entries[cell.solver].counts,
+                failure=cell.failure,
+                said=cell.said,
+                suited=cell.suited,
+            )
+
+
+def _cases(found: Sequence[SolverStudy]) -> Iterator[tuple[SolverStudy, Case, float]]:
+    """The problems of the studies, each with its last time."""
+    for one in found:
         ends = one.parameters["t_end"]
-        until = dict(zip(one.cases, ends if isinstance(ends, list) else [ends] * len(one.cases), strict=True))
-        for case in one.cases:
-            for cell in (cell for cell in one.error_vs_rtol if cell.case == case):
-                yield Missed(
-                    problem=one.problem,
-                    case=case.label,
-                    t_end=until[case],
-                    solver=cell.solver,
-                    rtol=cell.rtol,
-                    used=cell.used,
-                    max_error=cell.max_error,
-                    end_error=cell.end_error,
-                    velocity_error=cell.velocity_error,
-                    multiple=cell.max_error / cell.rtol,
-                    evaluations=cell.evaluations,
-                    dial=entries[cell.solver].dial,
-                    counts=entries[cell.solver].counts,
-                    failure=cell.failure,
-                    said=cell.said,
-                )
+        for case, end in zip(one.cases, ends if isinstance(ends, list) else [ends] * len(one.cases), strict=True):
+            yield one, case, end
 
 
 def page(found: Sequence[SolverStudy]) -> Page:
     """One table of several studies; JSON is a list of its rows."""
     rows = list(missed(found))
 
-    def blocks(_form: str, _width: int) -> Iterator[Block]:
+    def blocks(_form: str, width: int) -> Iterator[Block]:
         facts = {**found[0].reference, **found[0].engine}
         told = {name: facts[name] for name in ("version", "truth", "precision", "tolerance")}
         yield Head((*told.items(), *((one.problem, one.reference["definition"]) for one in found)), "Solvers")
         yield _table(found, rows)
+        yield from _works(found)
+        solvers = {entry.solver: entry for one in found for entry in one.solvers if entry.version is not None}
+        yield bounded(solvers.values(), width)
 
     return Page(
         name="solvers",
@@ -117,6 +129,16 @@ def page(found: Sequence[SolverStudy]) -> Page:
             "solvers": [field_names(Missed), *([plain(v) for v in fields_of(row).values()] for row in rows)]
         },
     )
+
+
+def _works(found: Sequence[SolverStudy]) -> Iterator[Table]:
+    """What errors took, problem by problem."""
+    counts = {entry.solver: entry.counts for one in found for entry in one.solvers}
+    for one, case, end in _cases(found):
+        cells = [cell for cell in one.error_vs_rtol if cell.case == case and cell.suited]
+        if cells:
+            words = f"{one.problem}, {case.label}, t = {end:.8g}"
+            yield work(f"work-{slug(words)}", f"Work and precision, {words}", cells, counts)
 
 
 def _table(found: Sequence[SolverStudy], rows: Sequence[Missed]) -> Table:
@@ -136,6 +158,7 @@ def _table(found: Sequence[SolverStudy], rows: Sequence[Missed]) -> Table:
             "-" if row.evaluations is None else f"{row.evaluations}{COUNTED if row.counts != CALLS else ''}",
         )
         for row in rows
+        if row.suited
     ]
     return Table(
         "solvers-several", "What a tolerance misses", (Grid(columns, tuple(lines)),), "\n".join(_notes(found, rows))
@@ -150,7 +173,11 @@ def _notes(found: Sequence[SolverStudy], rows: Sequence[Missed]) -> Iterator[str
     yield from dict.fromkeys(f"{COUNTED} {row.solver}: {row.counts}" for row in rows if row.counts != CALLS)
     own = (f"{OTHER} {row.solver} worked with {row.dial} = {row.used:.1e}" for row in rows if _is_other(row))
     yield from dict.fromkeys(own)
-    yield from dict.fromkeys(f"{row.solver} on {row.problem}: {row.failure}" for row in rows if row.failure)
+    failed: dict[tuple[str, str], dict[str, None]] = {}
+    for row in rows:
+        if row.failure:
+            failed.setdefault((row.problem, row.failure), {})[row.solver] = None
+    yield from (f"{', '.join(solvers)} on {problem}: {why}" for (problem, why), solvers in failed.items())
     solvers = [entry for one in found for entry in one.solvers]
     yield from dict.fromkeys(f"{entry.package} is missing; {entry.install}" for entry in solvers if not entry.version)
 

@@ -140,4 +140,5 @@ def _entry(solver: Solver) -> SolverEntry:
         call=solver.call,
         dial=solver.dial,
         counts=solver.counts,
+        tolerance=solver.tolerance,
     )

@@ -3,25 +3,26 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from compare.show import text_table
 from compare.show.page import field_names
 from compare.show.study_page import study_page
 from compare.show.text_table import Column, Grid, Table
-from compare.show.work import against_rtol, at_tolerances, two_digits
+from compare.show.work import against_rtol, at_tolerances, costs, two_digits
 from compare.solvers.records import EventCell, SolverCell, SolverEntry
 from compare.solvers.solver import CALLS
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
+    from collections.abc import Iterable, Iterator, Mapping, Sequence
 
     from compare.measure.records import Case
     from compare.show.page import Page
     from compare.show.study_page import Columns
     from compare.solvers.records import SolverStudy
 
-__all__ = ["COLUMNS", "OTHER", "TOLERANCES", "page", "tables"]
+__all__ = ["COLUMNS", "OTHER", "TOLERANCES", "bounded", "page", "tables", "work"]
 
 COLUMNS: Columns = {
     "solvers": field_names(SolverEntry),
@@ -39,13 +40,14 @@ def tables(study: SolverStudy, width: int = 100) -> Iterator[Table]:
     """The readable tables: who was asked, then amplitude by amplitude what they answered, then what they said."""
     yield from _who(study, width)
     for case in study.cases:
-        cells = [cell for cell in study.error_vs_rtol if cell.case == case]
+        cells = [cell for cell in study.error_vs_rtol if cell.case == case and cell.suited]
         if cells:
             yield from _cells(study, cells, case, width)
         events = [event for event in study.events if event.case == case]
         if events:
             yield _events(events, case, width)
     yield from _said(study, width)
+    yield from _left_out(study, width)
 
 
 def _who(study: SolverStudy, width: int) -> Iterator[Table]:
@@ -54,10 +56,21 @@ def _who(study: SolverStudy, width: int) -> Iterator[Table]:
         rows = [(entry.solver, entry.version or "", entry.call) for entry in here]
         columns = Column("solver", left=True), Column("version", left=True), Column("call", left=True)
         yield Table("solvers", "Solvers, and how each is called", (text_table.folded(columns, rows, width),))
+        yield bounded(here, width)
     missing = {entry.package: entry.install for entry in study.solvers if entry.version is None}
     if missing:
         labels = Column("package", left=True), Column("what installs it", left=True)
         yield Table("missing-solvers", "Missing", (Grid(labels, tuple(missing.items())),))
+
+
+def bounded(solvers: Iterable[SolverEntry], width: int) -> Table:
+    """What the tolerances bound: a row for all solvers of a package that mean the same by it."""
+    same: dict[tuple[str, str], dict[str, None]] = {}
+    for entry in solvers:
+        same.setdefault((entry.package, entry.tolerance), {})[entry.solver.partition(".")[2]] = None
+    rows = [(package, ", ".join(names), what) for (package, what), names in same.items()]
+    columns = Column("package", left=True), Column("solvers", left=True), Column("its tolerance bounds", left=True)
+    return Table("tolerances", "What a tolerance bounds", (text_table.folded(columns, rows, width),))
 
 
 def _cells(study: SolverStudy, cells: Sequence[SolverCell], case: Case, width: int) -> Iterator[Table]:
@@ -82,6 +95,16 @@ def _cells(study: SolverStudy, cells: Sequence[SolverCell], case: Case, width: i
     )
     title = f"Seconds against rtol, {at}"
     yield against_rtol(f"seconds-{text_table.slug(at)}", title, named, lambda cell: two_digits(cell.seconds), width)
+    yield work(f"work-{text_table.slug(at)}", f"Work and precision, {at}", cells, counts)
+
+
+def work(name: str, title: str, cells: Sequence[SolverCell], counts: Mapping[str, str]) -> Table:
+    """The evaluations that errors took on one problem, of the solvers that gave states and let them be counted."""
+    points = [(cell.solver, cell) for cell in cells if not cell.failure and cell.evaluations is not None]
+    own = [f"{who}: {counts[who]}" for who in dict.fromkeys(who for who, _ in points) if counts[who] != CALLS]
+    error = f"largest {cells[0].case.absolute}"
+    table = costs(f"{title}, evaluations", points, f"{error},", lambda cell: cell.evaluations, notes=own)
+    return replace(table, name=name)
 
 
 def _is_other(cell: SolverCell, dial: str) -> bool:
@@ -120,7 +143,7 @@ def _said(study: SolverStudy, width: int) -> Iterator[Table]:
     for cell in study.error_vs_rtol:
         own = [f"worked with {dials[cell.solver]} = {cell.used:.1e}"] if _is_other(cell, dials[cell.solver]) else []
         for message in (*own, cell.failure, cell.said):
-            if message:
+            if message and cell.suited:
                 said.setdefault((cell.solver, message), []).append(cell.rtol)
     for event in study.events:
         if event.failure:
@@ -135,6 +158,19 @@ def _said(study: SolverStudy, width: int) -> Iterator[Table]:
 
 def _named(cells: Sequence[SolverCell] | Sequence[EventCell]) -> list[tuple[str, Any]]:
     return [(cell.solver, cell) for cell in cells]
+
+
+def _left_out(study: SolverStudy, width: int) -> Iterator[Table]:
+    """The solvers that a problem does not have what they need for, by name."""
+    why: dict[str, dict[str, None]] = {}
+    for cell in study.error_vs_rtol:
+        if not cell.suited:
+            why.setdefault(cell.failure, {})[cell.solver] = None
+    if why:
+        rows = [(", ".join(solvers), what) for what, solvers in why.items()]
+        columns = Column("solver", left=True), Column("why", left=True)
+        title = "Left out: the problem does not have what they need"
+        yield Table("left-out", title, (text_table.folded(columns, rows, width),))
 
 
 def _count(value: int | None) -> str:

@@ -24,6 +24,7 @@ __all__ = [
     "JAX",
     "MPMATH",
     "NUMPY",
+    "TORCH",
     "Ball",
     "ComplexBall",
     "Heyoka",
@@ -31,6 +32,7 @@ __all__ = [
     "Mpmath",
     "Numpy",
     "Term",
+    "Torch",
 ]
 
 
@@ -121,6 +123,23 @@ class Jax(Numpy):
 
         setattr(self, name, getattr(jnp, name))
         return getattr(jnp, name)
+
+
+class Torch(Numpy):
+    """PyTorch's tensors; its functions take no numbers, so that those of a number are NumPy's."""
+
+    def __getattr__(self, name: str) -> Any:
+        if name not in Numpy.__annotations__:
+            raise AttributeError(f"PyTorch's arithmetic has no {name}.")
+        import torch
+
+        of_tensor, of_number = getattr(torch, name), getattr(NUMPY, name)
+
+        def function(x: Any) -> Any:
+            return of_tensor(x) if isinstance(x, torch.Tensor) else of_number(x)
+
+        setattr(self, name, function)
+        return function
 
 
 class Heyoka:
@@ -247,3 +266,4 @@ class Term:
 MPMATH = Mpmath()
 NUMPY = Numpy()
 JAX = Jax()
+TORCH = Torch()

@@ -33,7 +33,7 @@ def question(rtol=1e-6, t_end=4.0, limit=LIMIT):
 
 def made(run, **options):
     """A solver of ours that does what ``run`` does with a question."""
-    return Solver("made.solver", "heyoka", "run()", lambda q: lambda: run(q), **options)
+    return Solver("made.solver", "heyoka", "run()", lambda q: lambda: run(q), tolerance="nothing", **options)
 
 
 def scored(solver, *rtol, **options):
@@ -129,6 +129,7 @@ def _prints(_question):
         (_exits, "SystemError: the library is gone"),
         (lambda _: 1 / 0, "ZeroDivisionError: division by zero"),
         (lambda q: Answer(np.zeros((3, 2)), 1, q.rtol), "it returned states of shape (3, 2)"),
+        (lambda q: Answer(np.full((129, 2), math.nan), 1, q.rtol), "it returned states that are not finite"),
         (_prints, "ArithmeticError: no convergence; it printed: to the stdout of compiled code"),
     ],
 )
@@ -178,6 +179,7 @@ def test_a_solver_is_stopped_when_its_evaluations_are_used_up_and_not_asked_for_
 
 def test_a_solver_is_not_asked_what_it_cannot_solve():
     (cell,) = scored(made(truth_and(0.0), accepts="linear problems", solves=lambda _: False))
+    assert not cell.suited
     assert cell.failure == "it solves linear problems; pendulum is none of them"
 
 
@@ -202,7 +204,7 @@ def test_a_package_that_cannot_be_imported_is_reported_in_its_own_words(tmp_path
 
         return brokenpackage.solve
 
-    broken = Solver("broken.solver", "brokenpackage", "solve()", prepare)
+    broken = Solver("broken.solver", "brokenpackage", "solve()", prepare, tolerance="nothing")
     assert broken.version == "unknown"
     (cell,) = scored(broken)
     assert cell.failure == "ImportError: libfortran.so.5 is not here"
@@ -235,6 +237,12 @@ def test_other_processes_find_the_same_events_in_the_same_order(monkeypatch):
         for theta0 in (1.0, 2.0)
         for rtol in (1e-3, 1e-6)
     ]
+
+
+def test_where_no_event_happens_none_is_asked_for():
+    found = study(solvers=["RK45"], rtol=[1e-3], t_end=0.25)
+    assert found.scored
+    assert found.events == ()
 
 
 def test_events_are_not_asked_of_a_solver_that_gave_no_states():

@@ -13,6 +13,7 @@ from made_study import made_case
 
 from compare.__main__ import main
 from compare.show import render
+from compare.solvers import plot
 from compare.solvers.records import SolverCell, SolverEntry, SolverStudy
 from compare.solvers.several import missed, page
 
@@ -21,7 +22,8 @@ ONE, OTHER = made_case(1.0), replace(made_case(1.0), inputs=(("theta0", 2.0),), 
 
 def cell(solver, case, rtol, error=math.nan, **options):
     failed = math.isnan(error)
-    values = {"used": math.nan if failed else rtol, "failure": "no convergence" if failed else "", **options}
+    values = {"used": math.nan if failed else rtol, "failure": "no convergence" if failed else "", "suited": True}
+    values |= options
     return SolverCell(
         solver=solver,
         rtol=rtol,
@@ -37,6 +39,10 @@ def cell(solver, case, rtol, error=math.nan, **options):
     )
 
 
+def unsuited(solver, case, rtol):
+    return cell(solver, case, rtol, failure="it solves others; this is none of them", suited=False)
+
+
 def made(problem, cases, t_end):
     cells = [
         found
@@ -45,15 +51,17 @@ def made(problem, cases, t_end):
             cell("good.RK", case, 1e-9, 3e-7),
             cell("raised.RK", case, 1e-9, 1e-5, used=1e-7),
             cell("bad.RK", case, 1e-9),
+            unsuited("split.RK", case, 1e-9),
         )
     ]
     entries = [
-        SolverEntry(name, name.split(".")[0], version, f"pip install {name.split('.')[0]}", "solve()", "rtol", counts)
-        for name, version, counts in (
-            ("good.RK", "1.0", "steps"),
-            ("raised.RK", "1.0", "calls of the right-hand side"),
-            ("bad.RK", "1.0", "calls of the right-hand side"),
-            ("absent.RK", None, "steps"),
+        SolverEntry(f"{package}.RK", package, version, f"pip install {package}", "solve()", "rtol", counts, "steps")
+        for package, version, counts in (
+            ("good", "1.0", "steps"),
+            ("raised", "1.0", "calls of the right-hand side"),
+            ("bad", "1.0", "calls of the right-hand side"),
+            ("split", "1.0", "calls of the right-hand side"),
+            ("absent", None, "steps"),
         )
     ]
     facts = {"version": "0.1.0", "definition": f"the equation of {problem}", "truth": "proven"}
@@ -79,7 +87,7 @@ def test_every_problem_has_a_row_a_solver_with_its_time():
     assert found == [
         (problem, case.label, t, solver)
         for problem, case, t in (("short", ONE, 5.0), ("long", ONE, 50.0), ("long", OTHER, 60.0))
-        for solver in ("good.RK", "raised.RK", "bad.RK")
+        for solver in ("good.RK", "raised.RK", "bad.RK", "split.RK")
     ]
 
 
@@ -95,18 +103,41 @@ def test_what_failed_worked_otherwise_or_is_missing_is_said_once_below():
     for line in (
         "^ raised.RK worked with rtol = 1.0e-07",
         "bad.RK on long: no convergence",
+        "split.RK on long: it solves others; this is none of them",
         "absent is missing; pip install absent",
     ):
         assert LINES.count(line) == 1
 
 
+def test_what_a_problem_does_not_fit_has_no_row_but_its_reason():
+    assert not [line for line in LINES if line.startswith(("short 5 split", "long, theta0 = 1.0 rad 50 split"))]
+
+
+def test_the_evaluations_that_an_error_took_stand_problem_by_problem():
+    titles = [line for line in LINES if line.startswith("Work and precision")]
+    assert [title.partition(", evaluations")[0] for title in titles] == [
+        "Work and precision, short, theta0 = 1.0 rad, t = 5",
+        "Work and precision, long, theta0 = 1.0 rad, t = 50",
+        "Work and precision, long, theta0 = 2.0 rad, t = 60",
+    ]
+    assert LINES.count("good.RK 100 100 100 - - - -") == LINES.count("raised.RK 100 100 - - - - -") == 3
+
+
+def test_figures_of_several_problems_have_their_names_and_of_the_same_one_their_ends(monkeypatch):
+    monkeypatch.setattr(plot, "saved", lambda _figure: {"png": b""})
+    names = {name.rpartition(".")[0] for name in plot.files([made("short", (ONE,), 5.0), made("short", (ONE,), 6.0)])}
+    kinds = ("error-vs-rtol", "work-precision", "time-precision")
+    assert names == {f"solvers-short-{kind}-t-{end}" for kind in kinds for end in (5.0, 6.0)}
+    assert {name.rpartition(".")[0] for name in plot.files(STUDIES[:1])} == {f"solvers-short-{kind}" for kind in kinds}
+
+
 def test_programs_get_a_row_for_each():
     rows = json.loads(render.render(page(STUDIES), "json"))
-    assert len(rows) == 9
+    assert len(rows) == 12
     assert (rows[0]["multiple"], rows[0]["evaluations"]) == (pytest.approx(300), 100)
     assert (rows[2]["max_error"], rows[2]["failure"]) == (None, "no convergence")
     table = list(csv.DictReader(io.StringIO(render.render(page(STUDIES), "csv"))))
-    assert [row["t_end"] for row in table[::3]] == ["5.0", "50.0", "60.0"]
+    assert [row["t_end"] for row in table[::4]] == ["5.0", "50.0", "60.0"]
 
 
 @pytest.mark.parametrize("form", ["markdown", "latex"])
@@ -123,12 +154,18 @@ def test_the_command_takes_several_problems_and_a_time_for_each(capsys, tmp_path
     assert [path.name for path in tmp_path.iterdir()] == ["solvers.json"]
 
 
+def test_names_right_behind_the_command_are_problems(capsys):
+    for words in (["linear", "lorenz"], ["--problem", "linear", "--problem", "lorenz"]):
+        assert main(["solvers", *words, "--t", "1,2", "--rtol", "1e-6", "--solvers", "LSODA", "--format", "json"]) == 0
+        rows = json.loads(capsys.readouterr().out)
+        assert [(row["problem"], row["t_end"]) for row in rows] == [("linear", 1.0), ("lorenz", 2.0)]
+
+
 @pytest.mark.parametrize(
     ("words", "says"),
     [
         (["--t-end", "1,2,3"], "--t-end has 3 times; one, or 2 are accepted."),
         (["--t-end", "1,"], "--t-end '' is not a number"),
-        (["--plots"], "--plots draws the curves of one problem"),
         (["--radius", "1"], "option '--radius' is unknown"),
     ],
 )

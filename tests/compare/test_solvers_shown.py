@@ -25,7 +25,7 @@ RTOL = tuple(float(f"1e-{k}") for k in range(3, 14))
 
 def cell(solver, rtol, error=None, failure="", **options):
     nan = error is None
-    values = {"used": math.nan if nan else rtol, "said": "", "stopped": False, "case": CASE, **options}
+    values = {"used": math.nan if nan else rtol, "said": "", "stopped": False, "suited": True, "case": CASE, **options}
     error = math.nan if nan else error
     work = None if nan else int(rtol**-0.2 * 100)
     return SolverCell(
@@ -44,7 +44,14 @@ def cell(solver, rtol, error=None, failure="", **options):
 def entry(solver, version="1.2.3", **options):
     package = solver.split(".")[0]
     made = SolverEntry(
-        solver, package, version, f"pip install {package}", "solve(f, rtol)", "rtol", "calls of the right-hand side"
+        solver=solver,
+        package=package,
+        version=version,
+        install=f"pip install {package}",
+        call="solve(f, rtol)",
+        dial="rtol",
+        counts="calls of the right-hand side",
+        tolerance="the error of a step",
     )
     return replace(made, **options)
 
@@ -59,6 +66,7 @@ def made_study():
     steps = [cell("steps.Verlet", rtol, rtol * 3, used=rtol**0.5) for rtol in RTOL]
     events = [EventCell("good.RK", rtol, CASE, 9, 9, 0, rtol / 7, first_only=False, failure="") for rtol in RTOL]
     events += [EventCell("raised.RK", rtol, CASE, 9, 7, 2, rtol / 7, first_only=False, failure="") for rtol in RTOL]
+    left_out = [cell("split.BM4", rtol, failure="it solves others", suited=False) for rtol in RTOL]
     events += [EventCell("steps.Verlet", rtol, CASE, 1, 1, 0, rtol / 7, first_only=True, failure="") for rtol in RTOL]
     return SolverStudy(
         problem="pendulum",
@@ -71,10 +79,11 @@ def made_study():
             entry("bad.BDF"),
             entry("raised.RK"),
             entry("steps.Verlet", dial="step", counts="evaluations of the force"),
+            entry("split.BM4", tolerance="nothing"),
             entry("absent.A", None),
             entry("absent.B", None),
         ),
-        error_vs_rtol=(*good, *bad, *raised, *steps),
+        error_vs_rtol=(*good, *bad, *raised, *steps, *left_out),
         events=tuple(events),
         cases=(CASE,),
     )
@@ -130,6 +139,28 @@ def test_events_that_were_missed_or_invented_are_counted_beside_the_error():
 def test_missing_packages_stand_once_each_with_what_installs_them():
     assert table("missing").grids[0].rows == (("absent", "pip install absent"),)
     assert "absent.A" not in [line[0] for line in table("solvers").grids[0].rows]
+
+
+def test_what_tolerances_bound_is_said_of_those_that_are_here():
+    assert [line[:3] for line in table("tolerances").grids[0].rows] == [
+        ("good", "RK", "the error of a step"),
+        ("bad", "BDF", "the error of a step"),
+        ("raised", "RK", "the error of a step"),
+        ("steps", "Verlet", "the error of a step"),
+        ("split", "BM4", "nothing"),
+    ]
+
+
+def test_a_solver_that_a_problem_does_not_fit_is_left_out_by_name():
+    assert table("left-out").grids[0].rows == (("split.BM4", "it solves others"),)
+    assert "split.BM4" not in [line[0] for name in ("error-vs-rtol", "said") for line in table(name).grids[0].rows]
+
+
+def test_the_work_of_an_error_is_the_least_of_those_measured():
+    found = {line[0]: line[1:] for line in table("work").grids[0].rows}
+    assert set(found) == {"good.RK", "raised.RK", "steps.Verlet"}
+    assert found["good.RK"][:2] == ("630", "1584")
+    assert found["good.RK"][-1] == "-"
 
 
 @pytest.mark.parametrize("width", [80, 100, 120])

@@ -1,0 +1,1 @@
+"""A package whose integrators are in its modules."""

@@ -1,0 +1,1 @@
+"""A package whose solvers are in its modules."""
