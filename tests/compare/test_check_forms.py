@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import ctypes
 import json
-import shutil
-import subprocess
+import math
 import sys
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import people
@@ -14,7 +15,10 @@ import pytest
 
 import compare
 from compare.__main__ import main
+from compare.claims.frames import Field, Scene
+from compare.methods.own import jitted, library
 from compare.methods.own.forms import loaded
+from compare.methods.own.rates import Forces, Gradients
 from reference import Pendulum
 from reference.problems.families import find_family
 
@@ -159,14 +163,18 @@ for line in sys.stdin:
 """
 
 
-def test_a_step_in_another_process_is_measured_as_any(tmp_path, capsys):
+def test_a_step_in_another_process_is_any_step(tmp_path, capsys):
     program = tmp_path / "verlet.py"
     program.write_text(PROGRAM, encoding="utf-8")
-    words = ["--process", f"{sys.executable} {program}", "--problem", "pendulum", "--order", "2", "--symplectic"]
-    assert main(["check", *words, "--reversible", "--format", "json"]) == 0
-    found = json.loads(capsys.readouterr().out)
-    assert [one["standing"] for one in found["verdicts"]] == ["PASS"] * 3
-    assert main(["check", *words[:-2], "4"]) == 1
+    command = f"{sys.executable} {program}"
+    h, theta, omega = 0.125, 1.0, 0.5
+    middle = omega - h / 2 * 9.81 * math.sin(theta)
+    new = theta + h * middle
+    assert compare.Process(command)([theta, omega], h).tolist() == [new, middle - h / 2 * 9.81 * math.sin(new)]
+    words = ["--process", command, "--problem", "pendulum", "--order", "4", "--seconds", "9"]
+    assert main(["check", *words, "--format", "json"]) == 1
+    (verdict,) = json.loads(capsys.readouterr().out)["verdicts"]
+    assert verdict["standing"] == "FAIL"
 
 
 @pytest.mark.parametrize(
@@ -182,27 +190,75 @@ def test_a_program_that_is_no_step_is_one_sentence(command, says):
         compare.check(compare.Process(command), order=2, problem=Pendulum(1))
 
 
-LIBRARY = """
-typedef void (*rhs)(double t, const double *y, double *dydt);
+def test_a_step_in_a_library_is_called_by_the_convention_of_c(tmp_path, monkeypatch):
+    """The library is Python's own, compiled by nobody: ``make interop`` has one in C."""
 
-void midpoint(rhs f, int n, double t, double h, const double *y, double *ynew)
-{
-    double k[16], z[16];
-    f(t, y, k);
-    for (int i = 0; i < n; i++) z[i] = y[i] + h / 2 * k[i];
-    f(t + h / 2, z, k);
-    for (int i = 0; i < n; i++) ynew[i] = y[i] + h * k[i];
-}
-"""
+    @ctypes.CFUNCTYPE(None, library.RATES, ctypes.c_int, ctypes.c_double, ctypes.c_double, *[library.NUMBERS] * 2)
+    def midpoint(f, n, t, h, y, new):
+        k, z = (ctypes.c_double * n)(), (ctypes.c_double * n)()
+        f(t, y, k)
+        z[:] = [y[i] + h / 2 * k[i] for i in range(n)]
+        f(t + h / 2, z, k)
+        for i in range(n):
+            new[i] = y[i] + h * k[i]
 
+    class Opened(dict):
+        def __missing__(self, name):
+            raise AttributeError(name)
 
-@pytest.mark.parametrize("compiler", [one for one in ("cc", "gcc", "clang") if shutil.which(one)][:1])
-def test_a_step_in_a_library_is_called_by_the_convention_of_c(tmp_path, compiler):
-    (tmp_path / "midpoint.c").write_text(LIBRARY, encoding="utf-8")
-    library = tmp_path / "midpoint.so"
-    subprocess.run([compiler, "-shared", "-fPIC", "-O1", "-o", library, tmp_path / "midpoint.c"], check=True)
-    found = compare.check(loaded(f"{library}:midpoint"), order=2)
-    assert found.claims_hold
-    assert found.swinging.value == pytest.approx(2, abs=0.1)
+    file = tmp_path / "midpoint.so"
+    file.touch()
+    monkeypatch.setattr(ctypes, "CDLL", lambda _: Opened(midpoint=midpoint))
+    step = loaded(f"{file}:midpoint")
+
+    def rates(t, y):
+        return np.array([y[1], -y[0] + t])
+
+    y, t, h = np.array([1.0, 0.5]), 0.25, 0.125
+    expected = y + h * rates(t + h / 2, y + h / 2 * rates(t, y))
+    assert step(rates, t, y, h).tolist() == expected.tolist()
+    with pytest.raises(ZeroDivisionError):
+        step(lambda t, y: y / 0 if t else 1 // 0, 0, y, h)
     with pytest.raises(ValueError, match="has no function nothing; one that it exports is accepted"):
-        loaded(f"{library}:nothing")
+        loaded(f"{file}:nothing")
+
+
+def test_compiled_code_calls_python_back_and_what_that_raises_is_raised_after_it(monkeypatch):
+    """With a compiler that compiles nothing; ``make interop`` has numba's and JAX's."""
+    monkeypatch.setitem(sys.modules, "numba", SimpleNamespace(njit=lambda function: function))
+    asked = []
+
+    def f(*arguments):
+        asked.append(arguments)
+        if len(asked) > 4:
+            raise LookupError("enough")
+        return 2.0 * arguments[-1]
+
+    rates = jitted._compiled_call([f])
+    states, times = np.array([[1.0, 2.0, 3.0], [4.0, 5.0, 6.0]]), np.array([0.1, 0.2, 0.3])
+    for given in ((np.empty(0), [1, 2]), (np.array([0.5]), states[:, 1]), (times, states), (times, states[:, ::-1])):
+        assert np.array_equal(rates(*given), 2.0 * np.asarray(given[1]))
+    assert [len(arguments) for arguments in asked] == [1, 2, 2, 2]
+    assert asked[1][0] == 0.5
+    assert np.array_equal(asked[2][0], times)
+    with pytest.raises(LookupError, match="enough"), jitted.raised_within():
+        rates(times, states)
+    with pytest.raises(KeyError), jitted.raised_within():
+        raise KeyError
+
+
+def test_forces_are_of_the_shape_of_positions_and_equal_where_right_hand_sides_are():
+    one, other = (Field(Scene(Pendulum(1)), 10) for _ in range(2))
+    force, slope = Forces(one), Gradients(one)
+    expected = -9.81 * np.sin([1.0, 2.0])
+    assert force(1.0).shape == ()
+    assert force([1.0]).tolist() == [expected[0]]
+    assert np.array_equal(force(np.array([[1.0, 2.0]])), [expected])
+    assert slope(1.0) == -expected[0]
+    assert (one, force) == (other, Forces(other))
+    assert force != slope
+    assert len({one, other, Field(Scene(Pendulum(2)), 10)}) == 2
+    with pytest.raises(
+        ValueError, match=r"force was called with an array of shape \(2,\); 1 positions along the first"
+    ):
+        force([1.0, 2.0])

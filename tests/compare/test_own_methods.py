@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pytest
+from matplotlib.text import Text
 from toys import Forced
 
 from compare.__main__ import main
@@ -22,6 +23,7 @@ from compare.methods import find, own_methods
 from compare.methods.own import hosting
 from compare.methods.own.step_function import method, method_at
 from compare.report.run import Kept, plan, run, work
+from compare.show import plot
 from compare.study import study
 from reference import Pendulum
 from reference.dataset.blocks import partial
@@ -311,12 +313,12 @@ def test_the_table_has_the_same_digits_in_every_format(
             assert row[2:4] == row[4:6] == row[6:8]
 
 
-def test_figures_name_it(steps: Path, tmp_path: Path) -> None:
-    words = ["pendulum", "--methods", "rk4", *asked(steps, {"rk4": 4}), "--n", "128,256", "--plots", "--quiet"]
-    assert main([*words, "--out", str(tmp_path / "out")]) == 0
-    assert {"pendulum-work-precision.png", "pendulum-energy-drift.svg"} <= {
-        p.name for p in (tmp_path / "out").iterdir()
-    }
+def test_figures_name_it(steps: Path) -> None:
+    own = own_methods([f"{steps}:rk4"], [4])
+    found = study("pendulum", methods=["euler", *own], n=[64], t_end=1, traces=True)
+    for draw in (plot.error_figure, plot.work_figure, plot.drift_figure, plot.phase_figure):
+        words = {text.get_text() for text in draw(found, found.cases[0]).findobj(Text)}
+        assert own[0].name in words
 
 
 def test_it_stands_beside_the_default_methods(steps: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -107,10 +107,11 @@ def _relay(kind: Any) -> tuple[Callable[..., Any], list[Callable[..., Any]]]:  #
 
     @numba.extending.overload(asked)  # type: ignore[untyped-decorator]
     def _(first: Any, second: Any) -> Any:
-        first_axes, second_axes = (getattr(one, "ndim", 0) for one in (first, second))
+        number = isinstance(first, numba.types.Number)
         if isinstance(second, (numba.types.NoneType, numba.types.Omitted)):
-            return of_state if first_axes else of_number
-        return of_time_and_state if first_axes < second_axes else of_state_and_time
+            return of_number if number else of_state
+        second_axes = 0 if isinstance(second, numba.types.Number) else getattr(second, "ndim", 1)
+        return of_time_and_state if number or getattr(first, "ndim", 1) < second_axes else of_state_and_time
 
     @numba.njit  # type: ignore[untyped-decorator]
     def relay(first: Any, second: Any = None) -> Any:
