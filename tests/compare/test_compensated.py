@@ -67,8 +67,8 @@ def test_a_sum_of_many_small_numbers_is_right_to_its_last_bit() -> None:
 def test_every_method_takes_it_and_stays_itself(method: Method) -> None:
     """A few steps differ by roundings alone, plain and compiled, and by some: the sums remember what they lost.
 
-    Two roundings of slopes of 9.81 go into each of the four steps of 1/64 with the weights, whose sizes add up to 354 in
-    verner65.
+    Two roundings of slopes of 9.81 go into each of the four steps of 1/64 with the weights, whose sizes add up to 354
+    in verner65.
     """
     helped = compensate(method)
     states = np.linspace(0.1, 2, 16).reshape(2, 8)

@@ -2,6 +2,7 @@
 
 Rational and algebraic coefficients are held to the conditions exactly; coefficients that are the zero of order
 conditions, in balls so narrow that a condition which holds must have its zero inside and one that fails cannot.
+Decimals as printed miss the conditions: these are held to what the method declares that they miss at most.
 
 The order of a one-step method by its own steps, on the equations that Butcher's trees stand for.
 
@@ -121,21 +122,17 @@ def proven_order(method: Method) -> int | None:
 @cache
 def order_of_tableau(method: Tableau, b: tuple[Coefficient, ...] | None = None) -> int:
     """The order of a Runge-Kutta method, or of its stages with other weights, by Butcher's trees."""
-    numbers = [*(b or method.b), *(entry for row in method.matrix for entry in row)]
+    weights = b or method.b
+    number = _arithmetic([*weights, *(entry for row in method.matrix for entry in row)], method.residual)
     with ctx.workprec(PROOF_BITS):
-        weights = _numbers(numbers, method.residual)[: method.stages]
-        vectors = _stage_vectors(method)
-        return _largest(lambda order: vectors.residuals(weights, order), method.residual)
+        numbers, vectors = list(map(number, weights)), _stage_vectors(method, number)
+        return _largest(lambda order: vectors.residuals(numbers, order), method.residual)
 
 
 @lru_cache(maxsize=1)
-def _stage_vectors(method: Tableau) -> StageVectors:
+def _stage_vectors(method: Tableau, number: Callable[[Coefficient], Any]) -> StageVectors:
     """Of the method that was asked for last: they serve its embedded weights too."""
-    size, values = (
-        method.stages,
-        _numbers([*method.b, *(entry for row in method.matrix for entry in row)], method.residual),
-    )
-    return StageVectors([values[i * size : (i + 1) * size] for i in range(1, size + 1)])
+    return StageVectors([list(map(number, row)) for row in method.matrix])
 
 
 def order_of_partitioned(method: Partitioned) -> int:
@@ -193,13 +190,25 @@ def _vanishes(value: Any, bound: arb | None) -> bool:
     return bool(value.contains(0))
 
 
-def _numbers(coefficients: Sequence[Coefficient], most: Fraction = EXACT) -> list[Any]:
-    """The coefficients in exact numbers; in balls where they have no exact form, or miss the conditions anyway."""
+def _numbers(coefficients: Sequence[Coefficient]) -> list[Any]:
+    return list(map(_arithmetic(coefficients), coefficients))
+
+
+def _arithmetic(coefficients: Sequence[Coefficient], most: Fraction = EXACT) -> Callable[[Coefficient], Any]:
+    """What makes numbers of coefficients: exact ones; balls where they have no exact form, or miss the conditions."""
     kinds = {type(value) for value in coefficients}
     if most or Linear in kinds:
-        return [0 if value == 0 else enclose(value) for value in coefficients]
-    return (
-        [fmpq(x.numerator, x.denominator) if isinstance(x, Fraction) else x for x in coefficients]
-        if kinds <= {int, Fraction}
-        else list(coefficients)
-    )
+        return _ball
+    return _rational if kinds <= {int, Fraction} else _as_it_is
+
+
+def _ball(value: Coefficient) -> Any:
+    return 0 if value == 0 else enclose(value)
+
+
+def _rational(value: Any) -> fmpq:
+    return fmpq(value.numerator, value.denominator)
+
+
+def _as_it_is(value: Coefficient) -> Any:
+    return value
