@@ -5,13 +5,14 @@ weights of order 8, ``e 8`` the weights b less those, ``c`` the nodes where the 
 
 Verner's are those that his page calls most efficient, of 2007 and 2008, which are also Vern6 to Vern9 of
 OrdinaryDiffEq.  The printed fractions of Prince and Dormand are near to numbers that satisfy all conditions, which
-follow from the nodes; these are here.  What Feagin prints to 60 digits has no exact form.
+follow from the nodes; these are here, as P. Stone's worksheets and MRKISS of M. Richling have them.  What Feagin prints
+to 60 digits has no exact form; it is what rklib of J. Williams has of his files.
 """
 
 from __future__ import annotations
 
 from functools import cache
-from importlib.resources import files
+from pathlib import Path
 from typing import Any
 
 from compare.methods.kinds.one_step import Embedded, Tableau
@@ -29,6 +30,7 @@ __all__ = [
     "VERNER98",
 ]
 
+TABLES = Path(__file__).with_name("tables")
 ROOT6, SURD = root(6), "*sqrt(6)"
 
 
@@ -44,7 +46,7 @@ def _number(word: str) -> Coefficient:
 
 def _read(name: str, order: int, source: str, aliases: tuple[str, ...], residual: Q = EXACT) -> Tableau:
     lines: dict[str, list[tuple[Any, ...]]] = {}
-    for text in (files("compare.methods") / "tables" / f"{name}.txt").read_text(encoding="ascii").splitlines():
+    for text in (TABLES / f"{name}.txt").read_text(encoding="ascii").splitlines():
         kind, _, numbers = text.partition("  ")
         lines.setdefault(kind.strip(), []).append(tuple(map(_number, numbers.split())))
     (b,) = lines["b"]

@@ -18,6 +18,8 @@ from compare.march.precision import FORMATS, Precision, precision
 from compare.march.trace import compile_block, entry_rows, plain_block
 from compare.methods import METHODS, find
 from compare.methods.kinds.compensated import Sum, compensate
+from compare.methods.kinds.one_step import Tableau
+from compare.methods.order.algebraic import enclose
 from reference import Pendulum
 
 if TYPE_CHECKING:
@@ -63,7 +65,11 @@ def test_a_sum_of_many_small_numbers_is_right_to_its_last_bit() -> None:
 
 @by_name
 def test_every_method_takes_it_and_stays_itself(method: Method) -> None:
-    """A few steps differ by roundings alone, plain and compiled, and by some: the sums remember what they lost."""
+    """A few steps differ by roundings alone, plain and compiled, and by some: the sums remember what they lost.
+
+    Two roundings of slopes of 9.81 go into each of the four steps of 1/64 with the weights, whose sizes add up to 354
+    in verner65.
+    """
     helped = compensate(method)
     states = np.linspace(0.1, 2, 16).reshape(2, 8)
     parameters = np.stack([np.full(8, value) for value in (1 / 64, 0.0, 9.81, 1.0)])
@@ -72,7 +78,9 @@ def test_every_method_takes_it_and_stays_itself(method: Method) -> None:
     steps = method.starting_steps + 4
     plain = plain_block(helped, Pendulum(1.0), FLOAT64, states, parameters, steps, iterations)
     base = plain_block(method, Pendulum(1.0), FLOAT64, states, parameters, steps, iterations)
-    np.testing.assert_allclose(plain[:, :2], base[:, :2], rtol=0, atol=1e-14)
+    weights = sum(abs(float(enclose(weight))) for weight in method.b) if isinstance(method, Tableau) else 1
+    slopes = 2 * FLOAT64.epsilon * 9.81 * weights * 4 / 64
+    np.testing.assert_allclose(plain[:, :2], base[:, :2], rtol=0, atol=1e-14 + slopes)
     lost = plain[-1, -4:-2]
     assert 0 < np.max(np.abs(lost)) < 1e-15
     entry = entry_rows(helped, Pendulum(1.0), FLOAT64, states, parameters)[-1]
@@ -80,7 +88,7 @@ def test_every_method_takes_it_and_stays_itself(method: Method) -> None:
     out = np.zeros((len(entry), 8))
     block(entry, parameters, out)
     assert 0 < np.max(np.abs(out[-4:-2])) < 1e-15
-    np.testing.assert_allclose(out[:2] + out[-4:-2], plain[-1, :2] + lost, rtol=0, atol=2e-15)
+    np.testing.assert_allclose(out[:2] + out[-4:-2], plain[-1, :2] + lost, rtol=0, atol=2e-15 + slopes)
 
 
 def rms(values: list[float]) -> float:

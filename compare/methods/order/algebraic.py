@@ -224,12 +224,9 @@ def enclose(value: Coefficient | int) -> arb:
     return BALL.number(Fraction(value)) if isinstance(value, (int, Fraction)) else value.ball()
 
 
-def provable(coefficients: Sequence[Coefficient | arb], most: Fraction = EXACT) -> list[Any]:
-    """The coefficients as they are where arithmetic on them is exact, else in balls at the precision in force.
-
-    In balls too are coefficients that miss what they are to satisfy, by ``most``, so that exactness is of no use.
-    """
-    if not most and all(isinstance(value, (int, Fraction, Algebraic)) for value in coefficients):
+def provable(coefficients: Sequence[Coefficient | arb]) -> list[Any]:
+    """The coefficients as they are where arithmetic on them is exact, else in balls at the precision in force."""
+    if all(isinstance(value, (int, Fraction, Algebraic)) for value in coefficients):
         return list(coefficients)
     return [value if isinstance(value, arb) else 0 if value == 0 else enclose(value) for value in coefficients]
 

@@ -2,6 +2,7 @@
 
 Rational and algebraic coefficients are held to the conditions exactly; coefficients that are the zero of order
 conditions, in balls so narrow that a condition which holds must have its zero inside and one that fails cannot.
+Decimals as printed miss the conditions: these are held to what the method declares that they miss at most.
 
 The order of a one-step method by its own steps, on the equations that Butcher's trees stand for.
 
@@ -26,7 +27,7 @@ from compare.methods.kinds.nystrom import RungeKuttaNystrom
 from compare.methods.kinds.one_step import Splitting, Tableau
 from compare.methods.kinds.partitioned import Partitioned
 from compare.methods.kinds.rosenbrock import Rosenbrock
-from compare.methods.order.algebraic import EXACT, PROOF_BITS, Q, enclose, provable, vanishes
+from compare.methods.order.algebraic import EXACT, PROOF_BITS, Algebraic, Q, enclose, vanishes
 from compare.methods.order.lyndon_words import (
     KICK,
     coefficient,
@@ -139,35 +140,19 @@ def proven_order(method: Method) -> int | None:
 @cache
 def order_of_tableau(method: Tableau, b: tuple[Coefficient, ...] | None = None) -> int:
     """The order of a Runge-Kutta method, or of its stages with other weights, by Butcher's trees."""
-    numbers = [*(b or method.b), *(entry for row in method.matrix for entry in row)]
+    weights = b or method.b
+    number = _arithmetic([*weights, *(entry for row in method.matrix for entry in row)], method.residual)
     with ctx.workprec(PROOF_BITS):
-        values = _numbers(numbers, method.residual)
-        size = method.stages
-        weights, entries = values[:size], values[size:]
-        matrix = [entries[i * size : (i + 1) * size] for i in range(size)]
-        found = None if method.residual else order_by_assumptions(matrix, weights)
-        if found is not None:
+        numbers, vectors = list(map(number, weights)), _stage_vectors(method, number)
+        if not method.residual and (found := order_by_assumptions(vectors.matrix, numbers)) is not None:
             return found
-        vectors = _stage_vectors(method)
-        return _largest(lambda order: vectors.residuals(weights, order), method.residual)
+        return _largest(lambda order: vectors.residuals(numbers, order), method.residual)
 
 
 @lru_cache(maxsize=1)
-def _stage_vectors(method: Tableau) -> StageVectors:
+def _stage_vectors(method: Tableau, number: Callable[[Coefficient], Any]) -> StageVectors:
     """Of the method that was asked for last: they serve its embedded weights too."""
-    size, values = (
-        method.stages,
-        _numbers([*method.b, *(entry for row in method.matrix for entry in row)], method.residual),
-    )
-    return StageVectors([values[i * size : (i + 1) * size] for i in range(1, size + 1)])
-
-
-def _numbers(coefficients: Sequence[Coefficient], most: Fraction = EXACT) -> list[Any]:
-    """The coefficients as they are proven with, fractions as FLINT's, whose arithmetic takes a tenth of the time."""
-    values = provable(coefficients, most)
-    if all(isinstance(value, (int, Fraction)) for value in values):
-        return [fmpq(value.numerator, value.denominator) for value in values]
-    return values
+    return StageVectors([list(map(number, row)) for row in method.matrix])
 
 
 def order_by_assumptions(matrix: Sequence[Sequence[Any]], b: Sequence[Any]) -> int | None:
@@ -292,3 +277,26 @@ def _largest(residuals: Callable[[int], Iterator[Any]], most: Fraction = EXACT) 
     bound = enclose(most) if most else None
     orders = range(1, LIMIT + 1)
     return next((k - 1 for k in orders if not all(vanishes(value, bound) for value in residuals(k))), LIMIT)
+
+
+def _numbers(coefficients: Sequence[Coefficient]) -> list[Any]:
+    return list(map(_arithmetic(coefficients), coefficients))
+
+
+def _arithmetic(coefficients: Sequence[Coefficient], most: Fraction = EXACT) -> Callable[[Coefficient], Any]:
+    """What makes numbers of coefficients: exact ones; balls where they have no exact form, or miss the conditions."""
+    if most or not all(isinstance(value, (int, Fraction, Algebraic)) for value in coefficients):
+        return _ball
+    return _rational if all(isinstance(value, (int, Fraction)) for value in coefficients) else _as_it_is
+
+
+def _ball(value: Coefficient) -> Any:
+    return 0 if value == 0 else enclose(value)
+
+
+def _rational(value: Any) -> fmpq:
+    return fmpq(value.numerator, value.denominator)
+
+
+def _as_it_is(value: Coefficient) -> Any:
+    return value

@@ -50,12 +50,17 @@ class ExactMatrix:
 
 
 class StageVectors:
-    """What the trees make of the stages of a matrix, whose entries are ``fmpq``, or balls, or of another exact kind."""
+    """What the trees make of the stages of a matrix, whose entries are ``fmpq``, or balls, or of another exact kind.
+
+    Attributes:
+        matrix: its rows.
+    """
 
     def __init__(self, matrix: Sequence[Vector]) -> None:
         kinds = {type(entry) for row in matrix for entry in row if entry != 0}
         self._in_balls = arb in kinds
         self._kind: Any = arb_mat if self._in_balls else fmpq_mat if kinds <= {fmpq} else ExactMatrix
+        self.matrix = matrix
         self._matrix = self._of_rows(matrix)
         self._none = (1,) * len(matrix)
         self._known_groups: dict[tuple[int, int], list[list[Vector]]] = {}
