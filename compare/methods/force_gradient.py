@@ -83,7 +83,7 @@ def _velocity3(theta: Any, lamda: Any, chi: Any) -> tuple[tuple[str, Any], ...]:
 OMELYAN4_GV3 = proven_splitting(
     "omelyan4_gv3", 4, f"{OMELYAN2003}, (37)", _velocity3,
     ("0.2813980611667719", "0.087893686016807", "0.003061810122369770"),
-    kept=(0,), degrees=range(3, 4, 2), nystrom=True, slack=9,
+    kept=(0,), degrees=range(3, 4, 2), nystrom=True,
     aliases=("omelyan_4mn3f2gv",),
 )  # fmt: skip
 
@@ -101,7 +101,7 @@ OMELYAN4_GV4 = proven_splitting(
         "0.1921125277429464", "0.2852162240687091", "0.002427475259663050", "0.05851872613455621",
         "0.0004339598806816256",
     ),
-    kept=(0, 1, 2), degrees=range(3, 4, 2), nystrom=True, slack=9,
+    kept=(0, 1, 2), degrees=range(3, 4, 2), nystrom=True, slack=3,
     aliases=("omelyan_4mn4f2gvg",),
 )  # fmt: skip
 
@@ -123,7 +123,7 @@ OMELYAN4_GP5 = proven_splitting(
         "0.06419108866816235", "0.1518179640276466", "0.1919807940455741", "0.2158369476787619",
         "0.0009628905212024874",
     ),
-    kept=(0, 1, 2), degrees=range(3, 4, 2), nystrom=True, slack=9,
+    kept=(0, 1, 2), degrees=range(3, 4, 2), nystrom=True,
     aliases=("omelyan_4mn5f2gp",),
 )  # fmt: skip
 
@@ -140,7 +140,7 @@ OMELYAN6_GP5 = proven_splitting(
         "0.1097059723948682", "0.2693315848935301", "0.0008642161339706166", "0.4140632267310831",
         "1.131980348651556", "-0.01324638643416052",
     ),
-    degrees=range(3, 6, 2), nystrom=True, slack=9,
+    degrees=range(3, 6, 2), nystrom=True,
     aliases=("omelyan_6mn5f3gp",),
 )  # fmt: skip
 
@@ -168,7 +168,7 @@ OMELYAN8_GP11 = proven_splitting(
         "-0.000073296648559126385387017161643798",
         "0.015295860994523744731993293847001",
     ),
-    degrees=range(3, 8, 2), nystrom=True, slack=9,
+    degrees=range(3, 8, 2), nystrom=True,
     aliases=("omelyan_8s11f11gp",),
 )  # fmt: skip
 

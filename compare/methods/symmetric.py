@@ -86,7 +86,7 @@ MCLACHLAN_SS17 = proven_composition(
         "25/194", "0.5815140871052509624", "-0.41017537146985013753", "0.1851469357165877327",
         "-0.40955234342085141934", "0.14440594108001204106", "0.27833550039367965131", "0.31495668391629485789",
     ),
-    kept=(0,), slack=2,
+    kept=(0,),
 )  # fmt: skip
 
 
@@ -119,7 +119,7 @@ def _four_kicks_between(xi: Any, lamda: Any, chi: Any) -> tuple[tuple[str, Any],
 OMELYAN4_V4 = proven_splitting(
     "omelyan4_v4", 4, OMELYAN2002, _four_kicks_between,
     ("0.1644986515575760", "-0.02094333910398989", "1.235692651138917"),
-    kept=(2,), degrees=range(3, 4, 2), slack=9,
+    kept=(2,), degrees=range(3, 4, 2),
     aliases=("vefrl", "velocity_extended_forest_ruth"),
 )  # fmt: skip
 
@@ -163,7 +163,7 @@ OMELYAN6_V7 = proven_splitting(
         "0.3977675859548440", "0.6047073875057809",
         "-0.03933369314462574", "-0.4009869039788007",
     ),
-    degrees=range(3, 6, 2), nystrom=True, slack=2,
+    degrees=range(3, 6, 2), nystrom=True,
     aliases=("omelyan_6mn7fv",),
 )  # fmt: skip
 

@@ -18,69 +18,15 @@ from compare.march.precision import precision
 from compare.march.trace import random_points
 from compare.methods import METHODS, find
 from compare.methods.kinds.nystrom import RungeKuttaNystrom
-from compare.methods.kinds.one_step import Processed, Splitting
-from compare.methods.order.algebraic import enclose
-from compare.methods.order.certified_roots import unit
+from compare.methods.kinds.one_step import Processed
 from compare.scored import score_all
 from reference import Pendulum, PolarBrachistochrone
-from reference.arithmetic.namespaces import BALL
-from reference.arithmetic.precision import ctx
 from reference.problems.families import find_family
 
 if TYPE_CHECKING:
     from reference.problem import Problem
 
 BINARY64, LONG = precision("float64"), precision("longdouble")
-
-ELSEWHERE = {
-    "mclachlan_s2": ("0.19318332750378357396", "0.5"),  # Principia
-    "mclachlan_s4": ("0.16913927992207204518", "0.54545454545454545455", "-0.29918620390405079951"),  # Principia
-    "mclachlan_s5": ("0.089269454226475244887", "0.4", "-0.097336042636895508015", "-0.1"),  # Principia
-    "mclachlan_ss5": ("0.14", "0.28", "0.45273321423383502251"),  # Principia
-    "mclachlan_ss9": ("0.09335", "0.1867", "0.37109851185623919958", "0.55549702371247839916"),  # Principia
-    "mclachlan_ss17": ("0.064432989690721649485", "0.12886597938144329897", "0.35519003324334713070"),  # Principia
-    "mclachlan_sb3a4": ("0.18819521776883821787", "1", "-0.021528551102171551201", "-0.5"),  # Principia
-    "mclachlan_sb3a5": ("0.40518861839525227722", "-0.041095890410958904110"),  # OrdinaryDiffEq.jl
-    "omelyan2_p2": ("0.1931833275037836", "0.5"),  # QEX
-    "omelyan4_v4": ("0.1644986515575760", "0.5209433391039899", "1.235692651138917"),  # pyhamsys
-    "omelyan4_v5": ("0.08398315262876693", "0.2539785108410595", "0.6822365335719091"),  # BlackJAX
-    "omelyan4_p5": ("0.2750081212332419", "-0.0844296195070715", "-0.1347950099106792", "0.354900057157426"),  # PyQUDA
-    "omelyan6_v7": ("0.08333333333333333", "0.2465881872786138", "0.3977675859548440", "0.6047073875057809"),  # QEX
-    "saba2": ("0.2113248654051871177454256097490212721762", "0.5"),  # REBOUND
-    "saba3": ("0.1127016653792583114820734600217600389167", "0.2777777777777777777777777777777777777778"),  # REBOUND
-    "saba4": ("0.06943184420297371238802675555359524745214", "0.1739274225687269286865319746109997036177"),  # REBOUND
-    "sabac1": ("0.04166666666666666666666666666666666666667",),  # half of REBOUND's, whose jerk is half the gradient
-    "sabac2": ("0.005582274842315056384844867885294325688690",),
-    "sabac3": ("0.002817296681561404701133911884898769335781",),
-    "sabac4": ("0.001698387524104300665766078891746072",),
-    "aba104": ("0.04706710064597251", "0.1188819173681970", "0.1847569354170881", "0.2410504605515016"),  # pyhamsys
-    "aba864": ("0.07113342649822312", "0.1830836874721972", "0.2411534279566401", "0.3107828598985749"),  # pyhamsys
-    "aba1064": ("0.03809449742241219", "0.09585888083707521", "0.1452987161169137", "0.2044461531429988"),  # pyhamsys
-    "chin4a": ("0.1666666666666667", "0.5", "0.6666666666666667", "0.0138888888888889"),  # tmLQCD
-    "chin4c": ("0.1666666666666667", "0.375", "0.3333333333333333", "0.25", "0.0052083333333333"),  # tmLQCD
-    "omelyan4_gp3": ("0.08935804763220157", "0.2470939580390842"),  # tmLQCD
-    "omelyan4_gv3": ("0.087893686016807", "0.281398061166772", "0.412106313983193", "0.003061810122369770"),  # tmLQCD
-    "omelyan4_gv4": ("0.058518726134556207", "0.0004339598806816256", "0.192112527742946404"),  # tmLQCD
-    "omelyan4_gp5": ("0.06419108866816235", "0.1518179640276466", "0.1919807940455741", "0.2158369476787619"),  # tmLQCD
-    "omelyan6_gp5": ("0.1097059723948682", "0.2693315848935301", "0.0008642161339706166"),  # tmLQCD
-    "omelyan8_gp11": ("0.4100967473880111192878469", "0.004824930981741495291269584"),  # QEX
-    "processed4": ("0.1859353996846055", "0.8749306155955435", "0.0731969797858114", "-0.237106680151022"),  # REBOUND
-    "processed6": ("0.07943288242455420", "1.3599424487455264", "-0.034841228074994859"),  # REBOUND
-    "processed764": ("-0.334622229873080", "-1.621810118086801", "1.097567990732164"),  # REBOUND
-}
-"""The first flows as other public codes have them, to their digits."""
-ROUNDED = 130
-"""Units of the last place by which what is printed may be off the zero of the order conditions: a gradient's in
-processed6 is so far off, all others less than 30."""
-
-
-@pytest.mark.parametrize("name", ELSEWHERE)
-def test_the_first_coefficients_are_those_of_another_public_code(name: str) -> None:
-    method = find(name)
-    assert isinstance(method, Splitting)
-    for (_, weight), text in zip(method.flows, ELSEWHERE[name], strict=False):
-        with ctx.workprec(300):
-            assert abs(enclose(weight) - BALL.number(Fraction(text))) < BALL.number(ROUNDED * unit(text)), text
 
 
 def test_the_pairs_of_nystroms_kind_are_those_of_other_public_codes() -> None:
@@ -133,12 +79,11 @@ def test_the_derivative_of_the_force_is_that_of_its_jacobian(problem: Problem) -
 
 
 @pytest.mark.parametrize(("name", "order"), [("chin4a", 4), ("rkn64", 6), ("sabac3", 4), ("processed4", 4)])
-def test_forces_in_time_and_of_a_hamiltonian_have_the_order(name: str, order: int) -> None:
+def test_forces_in_time_have_the_order(name: str, order: int) -> None:
     """The time is among the positions and drifts on, and no force changes its rate."""
-    for problem, t_end, n in ((Forced(), 4, (16, 32, 64, 128)), (Kepler(), 1, (64, 128, 256, 512))):
-        (fitted,) = score_all([problem], [name], n=n, t_end=t_end, precision="float128").orders
-        assert fitted.cells_used >= 3
-        assert abs(fitted.fitted_order - order) < 0.1
+    (fitted,) = score_all([Forced()], [name], n=(16, 32, 64, 128), t_end=4, precision="float128").orders
+    assert fitted.cells_used >= 3
+    assert abs(fitted.fitted_order - order) < 0.1
 
 
 class Quartic(Kepler):
