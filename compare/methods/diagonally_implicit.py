@@ -372,7 +372,7 @@ def _kencarp54_conditions(values: Sequence[Any]) -> list[Any]:
 
 def _kencarp54() -> Tableau:
     kept = [list(KENCARP54_PRINTED).index(name) for name in KENCARP54_KEPT]
-    values = refined("kencarp54", _kencarp54_conditions, tuple(KENCARP54_PRINTED.values()), kept, slack=100)
+    values = refined("kencarp54", _kencarp54_conditions, tuple(KENCARP54_PRINTED.values()), kept, slack=69)
     rows, embedded = _kencarp54_rows(values)
     a = _squared(rows, 8)
     return Tableau(

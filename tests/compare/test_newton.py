@@ -22,7 +22,8 @@ if TYPE_CHECKING:
 
 FLOAT64 = precision("float64")
 RATE = float(np.sqrt(9.81))
-IMPLICIT = [method for method in METHODS if method.family == "implicit" and method.iterations(0.1, 53)]
+FAMILIES = {"implicit", "diagonally implicit"}
+IMPLICIT = [method for method in METHODS if method.family in FAMILIES and method.iterations(0.1, 53)]
 
 
 def pendulums(hw: float, fmt: Precision = FLOAT64, speeds: tuple[float, ...] = (0, 2, 6, 20)) -> BoundSystem:

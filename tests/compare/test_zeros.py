@@ -24,8 +24,9 @@ from compare.march.precision import precision
 from compare.methods import METHODS, find
 from compare.methods.embedded import DOP853, TSITOURAS54
 from compare.methods.kinds.one_step import Method, Splitting, Tableau
+from compare.methods.kinds.rosenbrock import Rosenbrock
 from compare.methods.order.algebraic import Coefficient, Q, enclose
-from compare.methods.order.certified_roots import Linear, Zero, ZeroError, unit
+from compare.methods.order.certified_roots import Coordinates, Linear, Zero, ZeroError, unit
 from compare.methods.order.refined import proven_composition
 from compare.methods.symplectic import POSITION_VERLET
 from reference.arithmetic.precision import ctx
@@ -36,11 +37,16 @@ BITS = 320
 def coefficients(method: Method) -> list[Coefficient]:
     if isinstance(method, Splitting):
         return [weight for _, weight in method.flows]
-    rows = [*method.matrix, method.b, *(other.b for other in method.embedded)] if isinstance(method, Tableau) else []
+    rows: list[tuple[Coefficient, ...]] = []
+    if isinstance(method, Tableau):
+        rows = [*method.matrix, method.b, *(other.b for other in method.embedded)]
+    if isinstance(method, Rosenbrock):
+        rows = [*method.a, *method.c, method.m, *(other.b for other in method.embedded)]
     return [entry for row in rows for entry in row]
 
 
-ZEROS = {value.zero for method in METHODS for value in coefficients(method) if isinstance(value, Linear)}
+KNOWN = {value.zero for method in METHODS for value in coefficients(method) if isinstance(value, Linear)}
+ZEROS = {zero for zero in KNOWN if isinstance(zero, Zero)}
 by_zero = pytest.mark.parametrize("zero", sorted(ZEROS, key=lambda zero: zero.name), ids=lambda zero: zero.name)
 
 
@@ -56,8 +62,8 @@ def test_every_printed_decimal_is_as_near_to_the_zero_as_its_table_says_and_no_n
     assert ceil(max(distances)) == zero.slack
 
 
-@by_zero
-def test_a_zero_is_enclosed_as_narrowly_as_is_asked(zero: Zero) -> None:
+@pytest.mark.parametrize("zero", sorted(KNOWN, key=lambda zero: zero.name), ids=lambda zero: zero.name)
+def test_a_zero_is_enclosed_as_narrowly_as_is_asked(zero: Coordinates) -> None:
     for bits in (64, 400):
         with ctx.workprec(bits):
             assert all(ball.rad() < arb(2) ** (8 - bits) for ball in zero.enclosures())
