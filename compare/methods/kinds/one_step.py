@@ -18,7 +18,7 @@ from flint import fmpz_poly
 
 from compare.methods.kinds import newton
 from compare.methods.kinds.increment import advance, increment, part
-from compare.methods.kinds.protocol import AttemptWork, Embedded, Method, OneStep, State, System
+from compare.methods.kinds.protocol import AttemptWork, Method, OneStep, State, System
 from compare.methods.order.algebraic import Algebraic, Coefficient, Q, enclose
 from reference.once import cached_property
 
@@ -126,6 +126,14 @@ def _changes_sign(polynomial: fmpz_poly) -> bool:
     odd = (factor for factor, times in polynomial.factor()[1] if times % 2)
     roots = [value for factor in odd if factor.degree() > 0 for value, _ in factor.complex_roots()]
     return any(value.imag == 0 and value.real > 0 for value in roots)
+
+
+@dataclass(frozen=True)
+class Embedded:
+    """Other weights on the stages of a Runge-Kutta method: a result of another order, to estimate the error by."""
+
+    order: int
+    b: tuple[Coefficient, ...]
 
 
 @dataclass(frozen=True)
