@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, TypeAlias
 
 from compare.methods.kinds import fixed_point, newton
 from compare.methods.kinds.increment import advance, increment, part, turned
-from compare.methods.kinds.protocol import AttemptWork, Embedded, Method, OneStep, State, System
+from compare.methods.kinds.protocol import AttemptWork, Method, OneStep, State, System
 from compare.methods.order.algebraic import EXACT, PROOF_BITS, Coefficient, Q, provable, vanishes
 from reference.arithmetic.precision import ctx
 from reference.names import unknown
@@ -75,6 +75,14 @@ def used_stages(matrix: Matrix, b: Sequence[Any]) -> tuple[int, ...]:
 
 ITERATIONS = {"Newton's method": newton, "fixed-point iteration": fixed_point}
 """How the slopes of implicit stages are found."""
+
+
+@dataclass(frozen=True)
+class Embedded:
+    """Other weights on the stages of a Runge-Kutta method: a result of another order, to estimate the error by."""
+
+    order: int
+    b: tuple[Coefficient, ...]
 
 
 @dataclass(frozen=True)

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, Protocol, runtime_checkable
 if TYPE_CHECKING:
     from compare.methods.order.algebraic import Coefficient, Enclosed
 
-__all__ = ["AttemptWork", "Embedded", "Equation", "Method", "OneStep", "Pair", "State", "System"]
+__all__ = ["AttemptWork", "EmbeddedResult", "Equation", "Method", "OneStep", "Pair", "State", "System"]
 
 State = tuple[Any, ...]
 """The numbers that a lane carries from step to step: the problem's state, then what the method remembers."""
@@ -127,12 +127,11 @@ class Method(Protocol):
         """The state and memory after a step, and what the last iteration changed (nothing in an explicit method)."""
 
 
-@dataclass(frozen=True)
-class Embedded:
-    """Other weights on the stages of a method: a result of another order, to estimate the error by."""
+class EmbeddedResult(Protocol):
+    """Another result on the stages of a method, to estimate its error by."""
 
-    order: int
-    b: tuple[Coefficient, ...]
+    @property
+    def order(self) -> int: ...
 
 
 @dataclass(frozen=True)
@@ -157,7 +156,7 @@ class Pair(Method, Protocol):
     """A method that can estimate the error of its step, where any results are ``embedded`` in it."""
 
     @property
-    def embedded(self) -> tuple[Embedded, ...]: ...
+    def embedded(self) -> tuple[EmbeddedResult, ...]: ...
 
     def attempt(self, system: System, y: State, h: Any, iterations: int = 0) -> tuple[State, tuple[State, ...], State]:
         """The state after a step, what it is apart from each embedded result, and what the last iteration changed."""
