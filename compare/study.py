@@ -36,7 +36,7 @@ if TYPE_CHECKING:
     from reference.family import End, Input, Marched
     from reference.problem import Problem
 
-__all__ = ["STEPS", "TRACE_N", "family_of", "inputs_shown", "problems_of", "study", "units_of"]
+__all__ = ["STEPS", "TRACE_N", "inputs_shown", "problems_of", "study", "units_of"]
 
 TRACE_N = 256
 """Of the numbers of steps that are asked for, trajectories have that nearest to this one."""
@@ -62,7 +62,7 @@ def study(family: Family | str, form: Sequence[str] | None = None, *, traces: bo
         ValueError: an argument is outside its range, or a name unknown.
         TypeError: an argument is of the wrong kind.
     """
-    one = family if isinstance(family, Family) else family_of(family)
+    one = family if isinstance(family, Family) else find_family(family)
     comparison = one.comparison
     forms = _forms(one, form)
     inputs = {name: given.pop(name) for name in (comparison.varied, *comparison.inputs) if name in given}
@@ -113,19 +113,6 @@ def _controlled(asked: dict[str, Any]) -> Controlled | None:
     if asked and "adaptive" not in asked:
         raise ValueError(f"{next(iter(asked))} is of pairs with a controlled step; adaptive says which.")
     return controlled(**asked) if asked else None
-
-
-def family_of(command: str) -> Family:
-    """The family of this name, or whose command has it.
-
-    Raises:
-        ValueError: there is none.
-        FileNotFoundError, ImportError: the user's module that it names cannot be imported.
-    """
-    from reference.problems.families import FAMILIES
-
-    known = {family.comparison.command: family for family in FAMILIES}
-    return known[command] if command in known else find_family(command)
 
 
 def problems_of(family: Family, inputs: dict[str, Any]) -> list[Problem]:

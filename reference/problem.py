@@ -193,6 +193,9 @@ class Problem:
         """How many components are positions apart from momenta; 0 where the equation does not split into both."""
         return 0
 
+    bodies: ClassVar[tuple[str, ...]] = ("",)
+    """The bodies that the positions are of: one coordinate of every body after the other."""
+
     @property
     def second_order(self) -> bool:
         """Whether the equation is q'' = F(q): it splits, is without the time, and the velocity is the momentum."""

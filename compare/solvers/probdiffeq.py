@@ -19,7 +19,7 @@ __all__ = ["SOLVERS"]
 
 DERIVATIVES = 5
 """Of the solution, beside itself, in the state of the filter."""
-COUNTS = "calls of the right-hand side, with those in its Jacobians; the Taylor series of the start is not counted"
+COUNTS = "calls of the right-hand side, with those in its Jacobians, once it has its start: a Taylor series and a step"
 
 
 def _model(method: str, ode: Any) -> tuple[Any, Any]:
@@ -76,7 +76,9 @@ def _compiled(method: str, problem: Problem, *, counting: bool) -> tuple[Any, _T
             error=probdiffeq.error_residual_std(constraint=constraint),
             while_loop=bounded if counting else jax.lax.while_loop,
         )
-        first = ivpsolve.dt0(vector_field, (start,), t=times[0])
+        first = ivpsolve.dt0_adaptive(
+            vector_field, (start,), t0=times[0], error_contraction_rate=DERIVATIVES, rtol=rtol, atol=rtol
+        )
         prior = model.prior_wiener_integrated(series)
         return asked(prior, times, atol=rtol, rtol=rtol, dt0=first).u.mean[0]
 

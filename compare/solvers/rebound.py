@@ -1,4 +1,4 @@
-"""REBOUND: IAS15 for particles, here one that is moved by the problem's force, and BS for any equation.
+"""REBOUND: IAS15 for particles, here moved by the problem's force, and BS for any equation.
 
 IAS15 is Gauss-Radau quadrature of order 15, BS extrapolation after Gragg, Bulirsch and Stoer.
 """
@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import math
 from functools import partial
+from itertools import product
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -22,15 +23,17 @@ AXES = ("x", "y", "z")
 
 
 def _solves(question: Question) -> bool:
-    """Whether q' = p, in at most three dimensions: a particle has no other kinematics."""
-    return question.positions <= len(AXES) and question.newtonian
+    """Whether q' = p, of bodies in at most three dimensions: particles have no other kinematics."""
+    return question.positions <= len(AXES) * len(question.problem.bodies) and question.newtonian
 
 
 def _prepare(question: Question, mode: str | None = None) -> Callable[[], Answer]:
     import rebound
 
-    axes = AXES[: question.positions]
-    place, speed = dict(zip(axes, question.start, strict=False)), question.start[len(axes) :]
+    bodies = len(question.problem.bodies)
+    axes = AXES[: question.positions // bodies]
+    names = (*axes, *(f"v{axis}" for axis in axes))
+    starts = [dict(zip(names, body, strict=True)) for body in question.start.reshape(len(names), bodies).T]
 
     def run() -> Answer:
         counted = Counted(question)
@@ -41,18 +44,19 @@ def _prepare(question: Question, mode: str | None = None) -> Callable[[], Answer
         if mode is not None:
             simulation.integrator.adaptive_mode = mode
         simulation.gravity = "none"
-        simulation.add(m=0.0, **place, **{f"v{axis}": v for axis, v in zip(axes, speed, strict=True)})
+        for start in starts:
+            simulation.add(m=0.0, **start)
 
         def push(pointer: Any) -> None:
-            particle = pointer.contents.particles[0]
+            particles = [pointer.contents.particles[body] for body in range(bodies)]
             try:
-                force = counted.force(pointer.contents.t, tuple(getattr(particle, axis) for axis in axes))
+                force = counted.force(pointer.contents.t, [getattr(one, axis) for axis in axes for one in particles])
             except SolverError as error:  # an exception would be lost on its way through compiled code
                 refused.append(error)
                 pointer.contents.stop()
                 return
-            for axis, value in zip(axes, force, strict=True):
-                setattr(particle, f"a{axis}", value)
+            for (axis, one), value in zip(product(axes, particles), force, strict=True):
+                setattr(one, f"a{axis}", value)
 
         simulation.additional_forces = push
         states = []
@@ -60,8 +64,7 @@ def _prepare(question: Question, mode: str | None = None) -> Callable[[], Answer
             simulation.integrate(time)
             if refused:
                 raise refused[0]
-            particle = simulation.particles[0]
-            states.append([getattr(particle, name) for name in (*axes, *(f"v{axis}" for axis in axes))])
+            states.append([getattr(simulation.particles[body], name) for name in names for body in range(bodies)])
         return Answer(np.array(states), counted.evaluations, float(simulation.integrator.epsilon))
 
     return run
@@ -116,7 +119,7 @@ def _solver(name: str, mode: str | None) -> Solver:
         if mode == "global"
         else "step over the time scale of the derivatives of the acceleration, (5040 epsilon)^(1/7)",
         counts="evaluations of the force",
-        accepts="problems with q' = p in at most three dimensions",
+        accepts="problems with q' = p, of bodies in at most three dimensions",
         solves=_solves,
     )
 

@@ -16,12 +16,12 @@ from compare.solvers.events import event_of
 from compare.solvers.records import SolverEntry, SolverStudy
 from compare.solvers.score import Asked, events, score_solver
 from compare.solvers.solver import Question
-from compare.study import family_of, inputs_shown, problems_of, units_of
+from compare.study import inputs_shown, problems_of, units_of
 from reference import __version__
 from reference.arithmetic.exact import as_number, exact, positive
 from reference.consistency import consistent
 from reference.family import Family
-from reference.problems.families import USUAL
+from reference.problems.families import USUAL, find_family
 from reference.routes.agreement import ROUTES
 
 if TYPE_CHECKING:
@@ -67,7 +67,7 @@ def study(
         ValueError: an argument is outside its range, or a name unknown.
         TypeError: an argument is of the wrong kind.
     """
-    family = problem if isinstance(problem, Family) else family_of(problem)
+    family = problem if isinstance(problem, Family) else find_family(problem)
     problems = problems_of(family, inputs)
     for one in problems:
         consistent(one)

@@ -73,7 +73,7 @@ def stiff_problem(rate: int) -> Problem:
 
 @cache
 def find_family(name: str) -> Family:
-    """The family of this name, or one of the user's own: MODULE:NAME, FILE.py:NAME, or FILE.toml of an equation.
+    """The family of this name or command, or a user's own: MODULE:NAME, FILE.py:NAME, or FILE.toml of an equation.
 
     Raises:
         ValueError: there is none.
@@ -85,6 +85,7 @@ def find_family(name: str) -> Family:
         found = named(name, "family", "FAMILY", lambda value: isinstance(value, (Family, FlowProblem)))
         return flow_family(type(found), name) if isinstance(found, FlowProblem) else found
     known = {family.name: family for family in FAMILIES}
-    if name not in known:
+    found = known.get(name) or next((family for family in FAMILIES if family.comparison.command == name), None)
+    if found is None:
         raise ValueError(unknown("problem", name, known))
-    return known[name]
+    return found

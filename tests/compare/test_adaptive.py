@@ -24,9 +24,10 @@ from compare.methods.kinds.one_step import Embedded, Tableau
 from compare.methods.order.algebraic import Q, enclose, root
 from compare.show import render
 from compare.show.study import page
-from compare.study import family_of, problems_of, study
+from compare.study import problems_of, study
 from reference import Flow, Pendulum
 from reference.arithmetic.namespaces import NUMPY
+from reference.problems.families import find_family
 
 FLOAT64 = precision("float64")
 PAIRS = [method for method in METHODS if is_pair(method)]
@@ -56,8 +57,8 @@ def one_march(name: str, lane: AdaptiveLane, **options: Any) -> AdaptiveMarch:
 
 
 def problem_of(name: str) -> Any:
-    (problem,) = problems_of(family_of(name), {})
-    return family_of(name).comparison.forms[0][1].problem(problem)
+    (problem,) = problems_of(find_family(name), {})
+    return find_family(name).comparison.forms[0][1].problem(problem)
 
 
 @pytest.mark.parametrize("name", ["pendulum", "lorenz", "kepler", "driven-pendulum"])
