@@ -13,6 +13,8 @@ from compare.methods.order.refined import palindrome, proven_processed
 
 __all__ = ["PROCESSED", "PROCESSED4", "PROCESSED6", "PROCESSED764"]
 
+REIN = "Rein 2020, Mon. Not. R. Astron. Soc. 492, 5413"
+
 Flows: TypeAlias = tuple[tuple[str, Any], ...]
 
 
@@ -35,7 +37,7 @@ def _modified_leapfrog(y1: Any, z1: Any, y2: Any, z2: Any, y3: Any, z3: Any) -> 
 
 
 PROCESSED4 = proven_processed(
-    "processed4", 4, "Blanes, Casas and Ros 1999, SIAM J. Sci. Comput. 21, 711", _modified_leapfrog,
+    "processed4", 4, f"Blanes, Casas and Ros 1999, SIAM J. Sci. Comput. 21, 711; {REIN}", _modified_leapfrog,
     (
         "0.1859353996846055", "0.8749306155955435",
         "0.0731969797858114", "-0.237106680151022",
@@ -54,7 +56,7 @@ def _three_kicks(a1: Any, b1: Any, c2: Any, *processor: Any) -> tuple[Flows, Flo
 
 
 PROCESSED6 = proven_processed(
-    "processed6", 6, "Blanes, Casas and Ros 2001, Appl. Numer. Math. 39, 245", _three_kicks,
+    "processed6", 6, f"Blanes, Casas and Ros 2001, Appl. Numer. Math. 39, 245; {REIN}", _three_kicks,
     (
         "-0.0682610383918630", "0.2621129352517028", "0.0164011128160783",
         "0.07943288242455420", "1.3599424487455264",
@@ -76,7 +78,7 @@ def _three_plain_kicks(a1: Any, b1: Any, *processor: Any) -> tuple[Flows, Flows]
 
 
 PROCESSED764 = proven_processed(
-    "processed764", 4, "Blanes, Casas and Ros 2000, Celest. Mech. Dyn. Astron. 77, 17", _three_plain_kicks,
+    "processed764", 4, f"Blanes, Casas and Ros 2000, Celest. Mech. Dyn. Astron. 77, 17; {REIN}", _three_plain_kicks,
     (
         "0.5600879810924619", "1.5171479707207228",
         "-0.3346222298730800", "-1.6218101180868010",

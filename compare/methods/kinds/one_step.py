@@ -297,7 +297,7 @@ class Splitting(OneStep):
         return self.stages - self.fsal, int(self.fsal)
 
     def jacobians(self, iterations: int) -> int:  # noqa: ARG002
-        """The derivatives of the force along itself, one a gradient, the last that of the next step where it can be."""
+        """The derivatives of the force along itself that a step adds: the last may be the first of the next step."""
         kinds = [kind for kind, _ in self.repeated]
         return kinds.count("gradient") - (self.fsal and "gradient" in kinds[:2] and kinds[-1] == "gradient")
 
