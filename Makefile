@@ -69,7 +69,7 @@ endef
 
 # The packages are there or this fails: none of its tests is skipped.  pytest collects these files where they are named.
 interop: .venv-interop/.installed $(DATASET)
-	.venv-interop/$(notdir $(BIN))/python -m pytest $(PARALLEL:loadfile=load) tests/interop/recipes.py tests/interop/third_party.py
+	.venv-interop/$(notdir $(BIN))/python -m pytest $(PARALLEL:loadfile=load) tests/interop/recipes.py tests/interop/third_party.py tests/interop/solvers.py
 
 .venv-interop/.installed: pyproject.toml
 	"$(PYTHON)" -m venv .venv-interop
