@@ -70,7 +70,7 @@ endef
 # The packages are there or this fails: none of its tests is skipped.  pytest collects these files where they are named.
 interop: .venv-interop/.installed $(DATASET)
 	.venv-interop/$(notdir $(BIN))/python -m pytest $(PARALLEL:loadfile=load) $(addprefix tests/interop/, \
-		recipes.py compiled.py programs.py third_party.py coefficients.py)
+		recipes.py compiled.py programs.py third_party.py coefficients.py solvers.py)
 
 .venv-interop/.installed: pyproject.toml
 	"$(PYTHON)" -m venv .venv-interop

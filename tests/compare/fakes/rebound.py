@@ -1,4 +1,4 @@
-"""A simulation of one particle under additional forces, by leapfrog steps, or of an equation, by Runge and Kutta's."""
+"""A simulation of particles under additional forces, by leapfrog steps, or of an equation, by Runge and Kutta's."""
 
 import math
 from types import SimpleNamespace
@@ -19,8 +19,9 @@ class Simulation:
     def integrator(self, name):
         assert name in {"ias15", "bs"}
 
-    def add(self, m, x, vx):
-        self.particles.append(SimpleNamespace(m=m, x=x, vx=vx, ax=0.0))
+    def add(self, m, **place):
+        axes = {f"a{axis}": 0.0 for axis in place if not axis.startswith("v")}
+        self.particles.append(SimpleNamespace(m=m, **place, **axes))
 
     def stop(self):
         self.stopped = True
@@ -52,15 +53,21 @@ class Simulation:
             self._march(time)
             return
         assert self.gravity == "none"
-        (one,) = self.particles
         fine = 2 if self._integrator.adaptive_mode == "global" else 1
         steps = max(1, fine * math.ceil((time - self.t) / math.sqrt(self._integrator.epsilon)))
         h = (time - self.t) / steps
         for _ in range(steps):
             if self.stopped:
                 return
-            one.x += h / 2 * one.vx
+            self._drift(h / 2)
             self.additional_forces(SimpleNamespace(contents=self))
-            one.vx += h * one.ax
-            one.x += h / 2 * one.vx
+            for one in self.particles:
+                for name in [name for name in vars(one) if name.startswith("a")]:
+                    setattr(one, f"v{name[1:]}", getattr(one, f"v{name[1:]}") + h * getattr(one, name))
+            self._drift(h / 2)
         self.t = time
+
+    def _drift(self, h):
+        for one in self.particles:
+            for name in [name for name in vars(one) if name.startswith("v")]:
+                setattr(one, name[1:], getattr(one, name[1:]) + h * getattr(one, name))
