@@ -64,7 +64,7 @@ class Made:
 
     @property
     def function(self) -> Any:
-        return FORMS[self.form](self.numbers if self.beside else {**self.numbers, "e": None}, self.tolerance)
+        return FORMS[self.form](self.numbers, self.tolerance)
 
     @property
     def claims(self) -> dict[str, Any]:
@@ -80,12 +80,13 @@ class Made:
         return found
 
 
-def numbers_of(method: Tableau | Splitting) -> dict[str, Any]:
+def numbers_of(method: Tableau | Splitting, *, beside: bool = False) -> dict[str, Any]:
+    """Its coefficients as doubles; "e" is what its estimate is made of, None where it gives none beside its state."""
     if isinstance(method, Splitting):
         return {"flows": [(kind, number(weight)) for kind, weight in method.flows]}
     a = np.array([[number(entry) for entry in row] for row in method.matrix])
     b = np.array([number(entry) for entry in method.b])
-    pairs = [b - np.array([number(entry) for entry in other.b]) for other in method.embedded[:1]]
+    pairs = [b - np.array([number(entry) for entry in other.b]) for other in method.embedded[:1] if beside]
     return {"a": a, "b": b, "c": a.sum(axis=1), "e": pairs[0] if pairs else None}
 
 
@@ -265,7 +266,9 @@ def sound(r: random.Random) -> Made:
         method = r.choice(EXPLICIT if kind == "explicit" else IMPLICIT)
         form, name = "newton" if kind == "implicit" else r.choice(OF_RUNGE_KUTTA), r.choice(sorted(known))
     beside = name in WITH_A_PAST and form not in {"class", "generator", "solver"} and r.random() < 0.5
-    return Made(method, form, known[name](r), 10.0 ** -r.randint(11, 14), numbers_of(method), beside=beside)
+    return Made(
+        method, form, known[name](r), 10.0 ** -r.randint(11, 14), numbers_of(method, beside=beside), beside=beside
+    )
 
 
 def slipped(r: random.Random) -> Made:

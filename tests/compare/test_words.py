@@ -24,12 +24,12 @@ def test_symmetric_compositions_have_the_conditions_that_are_known() -> None:
 @pytest.mark.parametrize("word", [(DRIFT, KICK, DRIFT), (KICK, KICK, DRIFT, DRIFT), (DRIFT,)])
 def test_a_word_of_an_exponential_has_the_reciprocal_of_a_factorial(word: tuple[str, ...]) -> None:
     factorial = {1: 1, 3: 6, 4: 24}[len(word)]
-    halves = [{DRIFT: Fraction(1, 2), KICK: Fraction(1, 2)}] * 2
+    halves = [{(DRIFT,): Fraction(1, 2), (KICK,): Fraction(1, 2)}] * 2
     assert coefficient(word, halves) == Fraction(1, factorial)
 
 
 def test_a_word_in_the_wrong_order_of_flows_has_no_coefficient() -> None:
-    flows = [{KICK: Fraction(2)}, {DRIFT: Fraction(3)}]
+    flows = [{(KICK,): Fraction(2)}, {(DRIFT,): Fraction(3)}]
     assert coefficient((KICK, DRIFT), flows) == 6
     assert coefficient((DRIFT, KICK), flows) == 0
     assert coefficient((KICK, KICK, DRIFT), flows) == 6
