@@ -325,6 +325,7 @@ class _Group:
         self.rows = _Rows(len(self.problem.state_names))
         self.attempt = _compiled(pair, CommonEquation.of(self.problem), fmt, iterations)
         self.times = [_Times(one.lane, fmt) for one in lanes]
+        self.levels, self.values = _constants([one.lane.problem for one in lanes], fmt)
         self.passed: list[_Passed] = []
         self.last = np.zeros((self.rows.count, len(lanes)))
 
@@ -365,10 +366,9 @@ class _Group:
         starts = [one.lane.start or one.lane.problem.start for one in self.lanes]
         states = np.stack([fmt.array(start[i] for start in starts) for i in range(self.rows.dimension)])
         given = [self._given(one, k) for one in self.lanes]
-        problems = [one.lane.problem for one in self.lanes]
         parameters = [
             *(fmt.array(each[name] for each in given) for name in PARAMETERS),
-            *(fmt.array(problem.parameters[name] for problem in problems) for name in self.problem.parameters),
+            *self.values,
         ]
         firsts = self._first_steps(states, k)
         carried = {name: fmt.zeros((len(self.lanes),)) for name in CARRIED}
@@ -419,10 +419,7 @@ class _Group:
 
     def _system(self, places: Sequence[int] | np.ndarray, h: np.ndarray) -> BoundSystem:
         """The equation over NumPy arrays, a lane of this group a column."""
-        problems = [self.lanes[i].lane.problem for i in places]
-        levels = np.array([initial_invariants(problem, self.fmt) for problem in problems], dtype=self.fmt.type)
-        values = [self.fmt.array(problem.parameters[name] for problem in problems) for name in self.problem.parameters]
-        return plain_system(self.problem, self.fmt, np.stack([h, *levels.T, *values]))
+        return plain_system(self.problem, self.fmt, np.stack([h, *self.levels[:, places], *self.values[:, places]]))
 
     def _pass(self, place: int, table: np.ndarray) -> None:
         """Note from where each sample is reached that the attempts [attempt, row] of a lane have passed."""
@@ -473,6 +470,15 @@ class _Group:
         if last["attempts"] >= self.most:
             return f"lost {where}: {self.most} attempts at a step have not been enough"
         return f"lost {where}: a step of {last['h']:.1e} is too short for the time to go on"
+
+
+def _constants(problems: Sequence[Problem], fmt: Precision) -> tuple[np.ndarray, np.ndarray]:
+    """The invariants at the start, and the parameters, of problems that share an equation: a problem a column."""
+    shape = (0, len(problems))
+    known = {problem: problem.parameters for problem in problems}
+    levels = np.array([initial_invariants(problem, fmt) for problem in problems], dtype=fmt.type).T
+    values = [fmt.array(known[problem][name] for problem in problems) for name in known[problems[0]]]
+    return levels if len(levels) else fmt.zeros(shape), np.stack(values) if values else fmt.zeros(shape)
 
 
 def _unknown(fmt: Precision, shape: tuple[int, ...]) -> np.ndarray:

@@ -180,7 +180,7 @@ def test_every_pair_marches_to_about_its_tolerance(pair: Any) -> None:
     assert fits(pair, course.problem)
     (found,) = march_adaptive(pair, [AdaptiveLane(course.lane, ELEMENTARY, Q(1, 10**6), Q(1, 10**6))], FLOAT64)
     assert found.failure == ""
-    assert float(np.max(course.position_error(course.errors(found.states)))) < 1e-3
+    assert float(np.max(course.position_error(course.errors(found.states)))) < 3e-3
     work = pair.attempt_work(0)
     if pair.iterations(1.0, 53) == 0:
         states = found.accepted * work.at_state or 1
