@@ -56,6 +56,8 @@ MARCH, TIMED_STEPS = 1 / 30, 16
 """Part of the time for the marches of one scene, where a step is slow, and steps by which that is seen."""
 FOLLOWED = 1 / 6
 """Part of the time for the one march along which the invariants are followed."""
+ENOUGH = 4
+"""That march says whether they are bounded where the time left one in so many of its steps."""
 MOST_STEPS = 4096
 LEAST_STEPS = 48
 LANES_OF_A_LADDER = 7
@@ -234,8 +236,8 @@ def _checked(candidate: Candidate, claims: Claims, scene: Scene, seconds: float)
     h = scene.step
     marcher, calls, timed, name = _marcher(candidate, scene, h)
     cost = _seconds_of_a_step(marcher)
-    most = _most_steps(marcher, calls, cost, seconds * MARCH)
-    counts = ladder(most)
+    by_calls = _steps_by_calls(marcher, calls)
+    counts = ladder(_steps_in_time(marcher, by_calls, seconds * MARCH / cost))
     still = measured(marcher, scene.span, counts, until)
     iterating = iterates(candidate, marcher, h)
     solves = iterating or candidate.form.own
@@ -248,13 +250,12 @@ def _checked(candidate: Candidate, claims: Claims, scene: Scene, seconds: float)
         series = lower(powers(candidate, scene, h), powers(candidate, frame, h))
     else:
         series = None if marcher.whole else powers(candidate, scene, h)
-    wanted = _most_steps(marcher, calls, 0.0, seconds)
-    followed = min(wanted, int(seconds * FOLLOWED / cost))
+    followed = min(by_calls, max(int(seconds * FOLLOWED / cost), LEAST_STEPS))
     energy, *others = kept(marcher, h, followed)
     evidence = Evidence(
         possible=name != "compiled" and still.kind != "own steps",
         iterates=iterating,
-        bounded=energy.bounded if 4 * followed >= wanted else None,
+        bounded=energy.bounded if ENOUGH * followed >= by_calls else None,
     )
     headed = _heading(candidate, marcher, h)
     back = _back(marcher, counts, until) if claims.backward and headed.backward in {"right", "untried"} else None
@@ -360,15 +361,29 @@ def _trial(candidate: Candidate, scene: Scene, h: float) -> tuple[float, bool]:
     return calls, field.timed
 
 
-def _most_steps(marcher: Marcher, calls: float, cost: float, seconds: float) -> int:
-    """The largest number of steps that the budgets of calls and of seconds allow."""
-    if isinstance(marcher, Steps) and isinstance(marcher.engine, Traced):
+def _traced(marcher: Marcher) -> bool:
+    return isinstance(marcher, Steps) and isinstance(marcher.engine, Traced)
+
+
+def _together(marcher: Marcher) -> bool:
+    """Whether all lanes share a call of f."""
+    return isinstance(marcher, Steps) and not isinstance(marcher.engine, Lanes)
+
+
+def _steps_by_calls(marcher: Marcher, calls: float) -> int:
+    """The largest number of steps that the budget of calls allows; compiled steps make none."""
+    if _traced(marcher):
         return MOST_STEPS
-    together = isinstance(marcher, Steps) and not isinstance(marcher.engine, Lanes)
-    allowed = CALLS_ON_ARRAYS if together else CALLS / LANES_OF_A_LADDER
-    steps = int(min(max(allowed / max(calls, 1.0), LEAST_STEPS), MOST_STEPS))
-    within = seconds / max(cost, 1e-9) / (1 if together else LANES_OF_A_LADDER)
-    while steps >= 2 * LEAST_STEPS and steps > within:
+    allowed = CALLS_ON_ARRAYS if _together(marcher) else CALLS / LANES_OF_A_LADDER
+    return int(min(max(allowed / max(calls, 1.0), LEAST_STEPS), MOST_STEPS))
+
+
+def _steps_in_time(marcher: Marcher, steps: int, within: float) -> int:
+    """So many steps, or halves of them until a ladder of them takes no longer than ``within`` steps do."""
+    if _traced(marcher):
+        return steps
+    longest = within / (1 if _together(marcher) else LANES_OF_A_LADDER)
+    while steps >= 2 * LEAST_STEPS and steps > longest:
         steps //= 2
     return steps
 

@@ -8,14 +8,14 @@ from __future__ import annotations
 
 import ctypes
 import sys
-from contextlib import contextmanager
 from functools import cache
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
+    from collections.abc import Callable
+    from types import TracebackType
 
 __all__ = ["is_traced", "numba_type", "raised_within", "settled", "told_jax"]
 
@@ -27,16 +27,17 @@ class CallbackError(Exception):
     """What compiled code raises where Python raised something below it."""
 
 
-@contextmanager
-def raised_within() -> Iterator[None]:
+class raised_within:  # noqa: N801 - a context, as a function is one
     """Run compiled code: what Python raised below it is raised, in the place of what came of it."""
-    _RAISED.clear()
-    try:
-        yield
-    except Exception:
-        if _RAISED:
+
+    def __enter__(self) -> None:
+        _RAISED.clear()
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        if _RAISED and isinstance(error, Exception):
             raise _RAISED[0] from None
-        raise
 
 
 def is_traced(value: Any) -> bool:
