@@ -16,24 +16,28 @@ __all__ = ["EXTRAPOLATION", "extrapolated"]
 BULIRSCH = "Gragg 1965, SIAM J. Numer. Anal. 2, 384; Bulirsch and Stoer 1966, Numer. Math. 8, 1"
 HARMONIC = "Gragg 1965, SIAM J. Numer. Anal. 2, 384; Deuflhard 1983, Numer. Math. 41, 399"
 
-Weights = list[Q]
-"""Of the slopes of all stages, in units of H."""
+Weights = dict[int, Q]
+"""Of the slopes of stages, in units of H; those that are not there are zero."""
 
 
-def _midpoint(steps: int, first: int, stages: int) -> tuple[list[Weights], Weights]:
+def _combined(*parts: tuple[Q, Weights]) -> Weights:
+    """The sum of some weights, each times a factor."""
+    found: Weights = {}
+    for factor, weights in parts:
+        for stage, weight in weights.items():
+            found[stage] = found.get(stage, 0) + factor * weight
+    return found
+
+
+def _midpoint(steps: int, first: int) -> tuple[list[Weights], Weights]:
     """The states y_1, ..., y_n, at which the stages from ``first`` on are, and the smoothed end."""
-    size = Q(1, steps)
-
-    def moved(y: Weights, factor: Q, stage: int) -> Weights:
-        return [weight + factor * (j == stage) for j, weight in enumerate(y)]
-
-    before, now = [Q(0)] * stages, moved([Q(0)] * stages, size, 0)
-    states = [now]
-    for m in range(steps - 1):
-        before, now = now, moved(before, 2 * size, first + m)
+    before: Weights = {}
+    states: list[Weights] = [{0: Q(1, steps)}]
+    for stage in range(first, first + steps):
+        before, now = states[-1], _combined((Q(1), before), (Q(2, steps), {stage: Q(1)}))
         states.append(now)
-    after = moved(before, 2 * size, first + steps - 1)
-    return states, [(a + 2 * b + c) / 4 for a, b, c in zip(before, now, after, strict=True)]
+    *_, last, end, after = [{}, *states]
+    return states[:-1], _combined((Q(1, 4), last), (Q(1, 2), end), (Q(1, 4), after))
 
 
 def extrapolated(name: str, sequence: tuple[int, ...], source: str, aliases: tuple[str, ...] = ()) -> Tableau:
@@ -44,22 +48,22 @@ def extrapolated(name: str, sequence: tuple[int, ...], source: str, aliases: tup
     """
     if any(steps % 2 for steps in sequence) or list(sequence) != sorted({0, *sequence})[1:]:
         raise ValueError(f"{name}: the numbers of steps are {sequence}; even ones that rise are accepted.")
-    stages = 1 + sum(sequence)
-    rows: list[Weights] = [[Q(0)] * stages]
+    rows: list[Weights] = [{}]
     columns: list[Weights] = []
     for k, steps in enumerate(sequence):
-        states, entry = _midpoint(steps, len(rows), stages)
+        states, entry = _midpoint(steps, len(rows))
         rows += states
         row = [entry]
         for earlier, previous in zip(reversed(sequence[:k]), columns, strict=True):
             factor = 1 / (Q(steps, earlier) ** 2 - 1)
-            row.append([new + factor * (new - old) for new, old in zip(row[-1], previous, strict=True)])
+            row.append(_combined((1 + factor, row[-1]), (-factor, previous)))
         columns = row
+    nothing, stages = Q(0), range(len(rows))
     return Tableau(
         name=name, order=2 * len(sequence), source=source,
-        a=tuple(tuple(row[:i]) for i, row in enumerate(rows)),
-        b=tuple(columns[-1]),
-        embedded=(Embedded(2 * len(sequence) - 2, tuple(columns[-2])),),
+        a=tuple(tuple(row.get(j, nothing) for j in range(i)) for i, row in enumerate(rows)),
+        b=tuple(columns[-1].get(j, nothing) for j in stages),
+        embedded=(Embedded(2 * len(sequence) - 2, tuple(columns[-2].get(j, nothing) for j in stages)),),
         family="extrapolation",
         aliases=aliases,
     )  # fmt: skip

@@ -83,6 +83,7 @@ def _enclosures(polynomial: tuple[int, ...], bits: int) -> list[arb]:
         return [*nodes, *(primitive(end) for end in (*nodes, arb(1)) for primitive in primitives)]
 
 
+@lru_cache(maxsize=64)
 def _nodes(polynomial: tuple[int, ...], bits: int) -> list[arb]:
     """The zeros in order, apart from each other."""
     with ctx.workprec(bits):
