@@ -142,10 +142,11 @@ class Check(Findings, Judged):
 
     @property
     def _times_matter(self) -> bool:
-        """Whether the order is lower where the time enters: stages are taken at the wrong times."""
+        """Whether the order is lower where the time enters, and the intervals are apart: stages are at wrong times."""
         if self.swinging is None or self.swinging.value is None or self.still.value is None:
             return False
-        return self.swinging.value < self.still.value - 0.5
+        lower = self.still.value - self.swinging.value
+        return lower > max(0.5, self.still.half_width + self.swinging.half_width)
 
     def _defect_words(self) -> list[str]:
         words = []

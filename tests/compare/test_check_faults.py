@@ -6,6 +6,7 @@ import json
 from dataclasses import replace
 from pathlib import Path
 
+import people
 import pytest
 import slips
 
@@ -102,6 +103,14 @@ def test_more_than_claimed_is_more_than_the_interval(value, claim, more):
     found = replace(right, still=replace(right.still, value=value, half_width=0.2))
     assert found.claims_hold
     assert ("more than claimed" in found.verdict) is more
+
+
+def test_orders_whose_intervals_meet_do_not_tell_of_wrong_times():
+    found = compare.check(people.WithFrozenTime, order=4)
+    cause = "a stage is taken at a wrong time"
+    assert cause in found.verdict
+    wide = replace(found.swinging, value=found.still.value - 1, half_width=2.0)
+    assert cause not in replace(found, swinging=wide).verdict
 
 
 @pytest.mark.usefixtures("without_a_process")
