@@ -267,7 +267,12 @@ def sound(r: random.Random) -> Made:
         form, name = "newton" if kind == "implicit" else r.choice(OF_RUNGE_KUTTA), r.choice(sorted(known))
     beside = name in WITH_A_PAST and form not in {"class", "generator", "solver"} and r.random() < 0.5
     return Made(
-        method, form, known[name](r), 10.0 ** -r.randint(11, 14), numbers_of(method, beside=beside), beside=beside
+        method,
+        form,
+        known[name](r),
+        10.0 ** -r.randint(11, 14),
+        numbers_of(method, beside=beside and form in WITH_ESTIMATES),
+        beside=beside,
     )
 
 
